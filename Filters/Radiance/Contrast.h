@@ -1,0 +1,53 @@
+// How well a sign stands out in the image that an observer gets of it.
+#pragma once
+
+#include "View.h"
+
+namespace smokevis
+{
+
+/// The observer's limits.
+struct Observer
+{
+  /// Equivalent luminance of the observer's own noise [cd/m2]; 0: none (plain eq. 4 of the paper).
+  double DarkLuminance = 0.1;
+  /// Smallest angle that is resolved [rad]; finer detail is averaged. Default: one minute of arc.
+  double Acuity = 2.908882086657216e-4;
+};
+
+/// What is measured over the plate of one sign.
+struct SignMeasurement
+{
+  /// False where no part of the sign's front is in view; all else is then zero.
+  bool InView = false;
+  /// Share of the plate (by solid angle) that shows, 0 to 1.
+  double VisibleFraction = 0.0;
+  /// Standard deviation over mean of the luminance, and its standard error.
+  double Contrast = 0.0;
+  double ContrastError = 0.0;
+  /// Standard deviation over (mean + DarkLuminance), and its standard error.
+  double PerceivedContrast = 0.0;
+  double PerceivedContrastError = 0.0;
+  /// (lit - unlit) / unlit.
+  double WebberContrast = 0.0;
+  /// (lit - unlit) / lit.
+  double UL924Contrast = 0.0;
+  /// Mean luminance of what shows, and of its lit and unlit parts [cd/m2].
+  double MeanLuminance = 0.0;
+  double MeanLuminanceError = 0.0;
+  double LitLuminance = 0.0;
+  double UnlitLuminance = 0.0;
+  /// Mean optical depth between eye and sign.
+  double OpticalDepth = 0.0;
+};
+
+/// Measures a sign (index into EmitterSet::Signs) from an eye point.
+SignMeasurement MeasureSign(
+  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
+
+/// Upper bound of the perceived contrast of a sign from an eye point, from transmittance and geometry
+/// alone (no veil): 0 where the sign faces away.
+double PerceivedContrastBound(
+  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
+
+} // namespace smokevis

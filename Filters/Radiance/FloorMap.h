@@ -1,0 +1,49 @@
+// The Floor Map of Visibility: the best sign's contrast over a grid of standing places.
+#pragma once
+
+#include "Contrast.h"
+#include "Progress.h"
+
+namespace smokevis
+{
+
+struct FloorMapOptions
+{
+  /// First place and steps between places along x and y [m]; z is the height of the eye.
+  Vec3 FirstPlace{ 0.0 };
+  double StepX = 1.0, StepY = 1.0;
+  int PlacesX = 12, PlacesY = 8;
+  /// Perceived contrast below which a sign counts as invisible.
+  double ContrastThreshold = 0.2;
+  /// Signs whose perceived contrast is bounded below this are not computed; 0: all are.
+  double CutOff = 0.0;
+  Observer Eye;
+  /// Most worker threads; 0: as many as the machine has.
+  int Threads = 0;
+};
+
+enum class PlaceStatus : signed char
+{
+  Seen = 0,
+  BelowThreshold = 1,
+  NoSignInView = 2,
+  InsideSolid = 3
+};
+
+/// Values a place, x fastest; a sign's values follow each other: [place * signs + sign].
+struct FloorMap
+{
+  std::size_t Signs = 0;
+  std::vector<PlaceStatus> Status;
+  /// Largest perceived contrast, its standard error, the sign's id (-1: none), and along the line to
+  /// that sign the optical depth and Jin's visibility 3/K [m] of the mean extinction.
+  std::vector<float> Visibility, VisibilityError, OpticalDepth, JinVisibility;
+  std::vector<int> BestSign;
+  std::vector<float> Contrast, PerceivedContrast, SignLuminance, VisibleFraction;
+  std::vector<WorkItem> Report;
+};
+
+/// Computes the map. Throws Error where there is no sign, or when stopped.
+FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progress& progress);
+
+} // namespace smokevis

@@ -1,0 +1,72 @@
+// Opaque shapes and rays against them. The one place that knows Embree.
+#pragma once
+
+#include "Types.h"
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace smokevis
+{
+
+/// Triangulated surface cells.
+struct SurfaceMesh
+{
+  std::vector<Vec3> Points;
+  /// Corners of each triangle; the front is the right-hand side.
+  std::vector<std::array<std::uint32_t, 3>> Triangles;
+  /// The cell that each triangle belongs to.
+  std::vector<std::uint32_t> TriangleCell;
+  /// Diffuse reflectance of each cell, both sides, 0 to 1 a band.
+  std::vector<Spectrum> CellReflectance;
+};
+
+/// Where a ray meets a shape.
+struct Hit
+{
+  /// Distance along the ray [m]; infinity: nothing was hit.
+  double Distance = std::numeric_limits<double>::infinity();
+  /// Index of the triangle, of the surfaces or of the emitters.
+  std::uint32_t Triangle = 0;
+  /// True where a plate of a sign or lamp was hit.
+  bool Emitter = false;
+  /// 0: seen from its front, 1: from its back.
+  int Side = 0;
+
+  bool Found() const { return this->Distance < std::numeric_limits<double>::infinity(); }
+};
+
+/// All opaque shapes of a scene: surfaces and the plates of the emitters. A plate that lies in a
+/// surface, or behind it by less than Tolerance(), wins over the surface when seen from its front.
+class Geometry
+{
+public:
+  Geometry();
+  /// Builds the search structures. Exact duplicates and triangles without area are left out.
+  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters);
+  ~Geometry();
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+
+  bool Empty() const;
+  /// Distance within which two shapes count as touching [m].
+  double Tolerance() const;
+  /// The cell of a surface triangle or of an emitter triangle.
+  std::uint32_t Cell(const Hit& hit) const;
+  /// Unit normal of the front of the triangle that was hit.
+  Vec3 Normal(const Hit& hit) const;
+
+  /// First shape met between two distances [m].
+  Hit Intersect(const Vec3& origin, const Vec3& direction, double begin, double end) const;
+  /// Whether anything opaque lies between two distances.
+  bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
+  /// Whether the straight line between two points is clear but for what touches its ends.
+  bool Visible(const Vec3& from, const Vec3& to) const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Implementation_;
+};
+
+} // namespace smokevis

@@ -1,0 +1,57 @@
+// The view-independent light of a scene: fluence in the smoke, illuminance on surfaces.
+#pragma once
+
+#include "Progress.h"
+#include "Scene.h"
+
+#include <string>
+#include <vector>
+
+namespace smokevis
+{
+
+/// One thing that the solver did or left out, for the WorkReport.
+struct WorkItem
+{
+  std::string What;
+  double Count = 0.0;
+  std::string Why;
+};
+
+struct LightFieldOptions
+{
+  /// Relative standard error that veil luminances are to have.
+  double Tolerance = 0.01;
+  std::uint64_t Seed = 1;
+  /// Most worker threads; 0: as many as the machine has. The result does not depend on it.
+  int Threads = 0;
+};
+
+/// Plain result of the solver. Patches are surface cells, then emitter cells; sides are front, back.
+struct LightField
+{
+  int Bands = 1;
+  std::size_t Cells = 0;
+  std::size_t Patches = 0;
+  /// Mean over each cell of the fluence [lx] that comes straight from emitters: [band][cell].
+  std::vector<float> DirectFluence;
+  /// The rest of the fluence [lx], a value a batch: [band][cell].
+  std::vector<Lanes> MultipleFluence;
+  /// Mean illuminance of each patch straight from emitters [lx]: [band][patch][side].
+  std::vector<float> DirectIlluminance;
+  /// The rest of it, a value a batch: [band][patch][side].
+  std::vector<Lanes> MultipleIlluminance;
+  /// What was done and what was left out.
+  std::vector<WorkItem> Report;
+
+  std::size_t CellIndex(int band, std::int64_t cell) const { return band * this->Cells + cell; }
+  std::size_t PatchIndex(int band, std::size_t patch, int side) const
+  {
+    return (band * this->Patches + patch) * 2 + side;
+  }
+};
+
+/// Solves the radiative transfer equation for the scene. Throws Error, also when stopped.
+LightField SolveLightField(const Scene& scene, const LightFieldOptions& options, Progress& progress);
+
+} // namespace smokevis

@@ -1,0 +1,117 @@
+// The smoke: rectilinear grids of constant-extinction cells, and the exact walk of a ray through them.
+#pragma once
+
+#include "Types.h"
+
+#include <string>
+#include <vector>
+
+namespace smokevis
+{
+
+/// One rectilinear grid of smoke, for example one FDS mesh.
+struct SmokeGrid
+{
+  /// Named in error messages.
+  std::string Name;
+  /// Node coordinates along x, y, z [m], strictly increasing, at least two each.
+  std::array<std::vector<double>, 3> Nodes;
+  /// Extinction coefficient of each cell at 633 nm [1/m], x fastest.
+  std::vector<float> Extinction;
+  /// Luminance that the cell's absorption would emit in equilibrium [cd/m2]; empty: none.
+  std::vector<float> EmittedLuminance;
+};
+
+/// A piece of a ray inside one cell.
+struct Segment
+{
+  /// Index over the cells of all grids.
+  std::int64_t Cell;
+  /// Distances along the ray where the piece begins and ends [m].
+  double Begin;
+  double End;
+};
+
+/// All smoke of a scene. Cells of all grids are numbered through, grid after grid, x fastest.
+class Medium
+{
+public:
+  Medium() = default;
+  /// Checks the grids; throws Error for bad nodes, sizes, NaN or negative extinction.
+  explicit Medium(std::vector<SmokeGrid> grids);
+
+  std::size_t Cells() const { return this->Extinction_.size(); }
+  bool Empty() const { return this->Extinction_.empty(); }
+  /// Extinction coefficient at 633 nm [1/m].
+  float Extinction(std::int64_t cell) const { return this->Extinction_[cell]; }
+  float MaximumExtinction() const { return this->MaximumExtinction_; }
+  bool Emits() const { return !this->EmittedLuminance_.empty(); }
+  float EmittedLuminance(std::int64_t cell) const
+  {
+    return this->EmittedLuminance_.empty() ? 0.0F : this->EmittedLuminance_[cell];
+  }
+  Vec3 CellCentre(std::int64_t cell) const;
+  Vec3 CellSize(std::int64_t cell) const;
+  double CellVolume(std::int64_t cell) const;
+  /// The cell that holds a point, or -1 outside all smoke.
+  std::int64_t Locate(const Vec3& point) const;
+  /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it may
+  /// lie in another grid; -1 where there is none.
+  std::int64_t Neighbour(std::int64_t cell, int axis, int side) const;
+
+  const Vec3& Lower() const { return this->Lower_; }
+  const Vec3& Upper() const { return this->Upper_; }
+
+  /// Appends the pieces of the ray between distances `begin` and `end` that lie in smoke, in order.
+  /// Lengths of adjoining pieces telescope, so their sum is the ray's length in smoke to rounding.
+  void Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
+    std::vector<Segment>& pieces) const;
+
+  /// Optical depth of the ray between two distances, for extinction as given (633 nm).
+  double OpticalDepth(
+    const Vec3& origin, const Vec3& direction, double begin, double end) const;
+
+private:
+  struct Grid
+  {
+    std::array<std::vector<double>, 3> Nodes;
+    /// Cells a metre along each axis where the nodes are uniform, else 0.
+    Vec3 InverseStep;
+    std::array<int, 3> Size;
+    std::int64_t FirstCell;
+    Vec3 Lower;
+    Vec3 Upper;
+
+    int Index(int axis, double coordinate) const;
+    std::int64_t Cell(int i, int j, int k) const
+    {
+      return this->FirstCell + i + this->Size[0] * (j + static_cast<std::int64_t>(this->Size[1]) * k);
+    }
+  };
+
+  struct Interval
+  {
+    double Begin;
+    double End;
+    int Grid;
+  };
+
+  template <class Visit>
+  void ForEachPiece(const Vec3& origin, const Vec3& direction, double begin, double end,
+    Visit&& visit) const;
+  template <class Visit>
+  void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction, double begin,
+    double end, Visit&& visit) const;
+  const Grid& GridOf(std::int64_t cell, std::array<int, 3>& index) const;
+
+  /// Finest first.
+  std::vector<Grid> Grids_;
+  bool Overlap_ = false;
+  std::vector<float> Extinction_;
+  std::vector<float> EmittedLuminance_;
+  float MaximumExtinction_ = 0.0F;
+  Vec3 Lower_{ 0.0 };
+  Vec3 Upper_{ 0.0 };
+};
+
+} // namespace smokevis

@@ -1,0 +1,68 @@
+// What is to be solved: smoke, surfaces, emitters, and what they prepare for the solver.
+#pragma once
+
+#include "Emitters.h"
+#include "Geometry.h"
+#include "Medium.h"
+#include "Types.h"
+
+#include <memory>
+#include <vector>
+
+namespace smokevis
+{
+
+/// Plain description of a scene. Lengths in m, extinction in 1/m, luminance in cd/m2.
+struct SceneDescription
+{
+  /// Colour bands that are solved: 1 (luminance) or 3.
+  int Bands = 1;
+  /// Extinction of each band relative to the given one, (633 nm / wavelength)^alpha.
+  Spectrum ExtinctionScale = { 1.0, 1.0, 1.0 };
+  /// Single-scattering albedo of the smoke, 0 to 1.
+  double Albedo = 0.3;
+  /// Smoke grids; where they overlap the one with the smaller cells counts.
+  std::vector<SmokeGrid> Grids;
+  /// Walls, floors, obstructions.
+  SurfaceMesh Surfaces;
+  /// Plates of signs and lamps.
+  std::vector<EmitterCell> Emitters;
+};
+
+/// A scene made ready: search structures built, input checked. Immutable and safe to share between
+/// threads. The radiating elements ("patches") are the surface cells followed by the emitter cells;
+/// each has a front side (0) and a back side (1).
+class Scene
+{
+public:
+  /// Throws Error where the description is not usable (what, where, what to do).
+  explicit Scene(SceneDescription description);
+
+  int Bands() const { return this->Description_.Bands; }
+  double Albedo() const { return this->Description_.Albedo; }
+  double ExtinctionScale(int band) const { return this->Description_.ExtinctionScale[band]; }
+  const Medium& Smoke() const { return this->Smoke_; }
+  const Geometry& Shapes() const { return this->Shapes_; }
+  const EmitterSet& Lights() const { return this->Lights_; }
+
+  /// Surface cells come first among the patches.
+  std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
+  std::size_t Patches() const { return this->PatchArea_.size(); }
+  double PatchArea(std::size_t patch) const { return this->PatchArea_[patch]; }
+  const Spectrum& PatchReflectance(std::size_t patch) const;
+
+  /// The corner with the smallest and the one with the largest coordinates of all there is.
+  const Vec3& Lower() const { return this->Lower_; }
+  const Vec3& Upper() const { return this->Upper_; }
+
+private:
+  SceneDescription Description_;
+  Medium Smoke_;
+  EmitterSet Lights_;
+  Geometry Shapes_;
+  std::vector<double> PatchArea_;
+  Vec3 Lower_{ 0.0 };
+  Vec3 Upper_{ 0.0 };
+};
+
+} // namespace smokevis

@@ -1,0 +1,52 @@
+// Small value types that every part of the radiance solver shares.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+namespace smokevis
+{
+
+/// Points [m] and directions, in double precision.
+using Vec3 = glm::dvec3;
+
+/// Most colour bands that a scene can have.
+inline constexpr int MaxBands = 3;
+
+/// One value a band.
+using Spectrum = std::array<double, MaxBands>;
+
+/// Independent batches of the light-field estimate. Sixteen fill one 512-bit register of floats, and
+/// sixteen batches give a standard error that is itself good to 18 %.
+inline constexpr int Batches = 16;
+
+/// One value a batch.
+struct alignas(64) Lanes
+{
+  float Value[Batches] = {};
+
+  float operator[](int batch) const { return this->Value[batch]; }
+  float& operator[](int batch) { return this->Value[batch]; }
+};
+
+/// Mean of the batches.
+double Mean(const Lanes& lanes);
+/// Standard error of that mean, from the spread of the batches.
+double StandardError(const Lanes& lanes);
+
+/// Photopic weights of three bands, which turn band luminances into one luminance. The values are
+/// those of the linear sRGB primaries (IEC 61966-2-1), so that equal bands give the same luminance.
+inline constexpr Spectrum PhotopicWeights = { 0.2126, 0.7152, 0.0722 };
+
+/// Luminance of a spectrum of so many bands (1 or 3).
+inline double Luminance(const Spectrum& value, int bands)
+{
+  return bands == 1 ? value[0]
+                    : PhotopicWeights[0] * value[0] + PhotopicWeights[1] * value[1] +
+                        PhotopicWeights[2] * value[2];
+}
+
+} // namespace smokevis

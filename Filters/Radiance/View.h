@@ -1,0 +1,72 @@
+// Radiance along rays through a scene whose light field is known.
+#pragma once
+
+#include "LightField.h"
+#include "Scene.h"
+
+#include <memory>
+
+namespace smokevis
+{
+
+/// What arrives along one ray, in one band.
+struct RayLight
+{
+  /// Luminance of the surface that ends the ray, as it arrives (after transmittance) [cd/m2].
+  double Surface = 0.0;
+  /// Batches of the part of Surface that is reflected light of the second and later order.
+  Lanes SurfaceMultiple;
+  /// Light scattered or emitted by smoke on the way [cd/m2], without its batches' share.
+  double VeilDirect = 0.0;
+  /// Batches of the veil of multiply scattered light [cd/m2].
+  Lanes VeilMultiple;
+  /// Optical depth to the end of the ray.
+  double OpticalDepth = 0.0;
+
+  /// Veil in all [cd/m2].
+  double Veil() const;
+  /// Luminance in all [cd/m2].
+  double Total() const;
+  /// Luminance in all, a value a batch [cd/m2].
+  Lanes TotalLanes() const;
+};
+
+/// A light field and what views of it need. Immutable; Trace may be called from many threads.
+class View
+{
+public:
+  View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field);
+  ~View();
+
+  const Scene& TheScene() const { return *this->Scene_; }
+  const LightField& Field() const { return *this->Field_; }
+
+  /// First shape that a ray meets, at most `end` metres away.
+  Hit FirstHit(const Vec3& origin, const Vec3& direction,
+    double end = std::numeric_limits<double>::infinity()) const;
+
+  /// Light that arrives at the origin against the direction of the ray, which ends at `hit`.
+  /// Where the hit is an emitter cell its own luminance is included.
+  RayLight Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const;
+
+  /// Only the smoke's share of that light (Surface stays 0), up to a distance.
+  RayLight TraceVeil(const Vec3& origin, const Vec3& direction, double distance, int band) const;
+
+  /// Luminance that leaves an emitter cell towards a direction (unit, away from the plate), emitted
+  /// and reflected [cd/m2], before any smoke.
+  /// @param lanes receives the batches of what is reflected of multiply scattered light
+  double EmitterLuminance(
+    std::size_t emitter, int side, const Vec3& point, const Vec3& towards, int band, Lanes& lanes) const;
+
+  /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without smoke
+  /// and without light.
+  bool InsideSolid(const Vec3& point) const;
+
+private:
+  struct Implementation;
+  std::shared_ptr<const Scene> Scene_;
+  std::shared_ptr<const LightField> Field_;
+  std::unique_ptr<Implementation> Implementation_;
+};
+
+} // namespace smokevis
