@@ -1,24 +1,22 @@
-// Plates of signs and lamps, and the light that reaches a point straight from them.
+// Plates of signs and lamps: what they are made of and how they group into lights.
 #pragma once
 
 #include "Types.h"
 
-#include <string>
 #include <vector>
 
 namespace smokevis
 {
-
-class Geometry;
-class Medium;
 
 /// One plane convex polygon of a sign's or lamp's plate. It emits from its front (right-hand side)
 /// only, luminance times cos^Exponent of the angle to the normal (0: Lambertian).
 struct EmitterCell
 {
   std::vector<Vec3> Vertices;
+  /// Luminance along the normal [cd/m2].
   Spectrum Luminance{};
   double Exponent = 0.0;
+  /// Diffuse reflectance of both sides, 0 to 1.
   Spectrum Reflectance{};
   /// Cells of one sign share an id >= 0; -1: a lamp.
   int SignId = -1;
@@ -32,73 +30,65 @@ struct Sign
   std::vector<std::size_t> Cells;
   Vec3 Centre{ 0.0 };
   Vec3 Normal{ 0.0 };
-  /// Corners of the rectangle around the plate: lower left, lower right, upper right, upper left as
-  /// seen from the front with z (or, for a plate that lies flat, y) upwards.
+  /// Corners of the rectangle around the plate, counter-clockwise from the front, starting where its
+  /// first cell starts.
   std::array<Vec3, 4> Corners{};
   /// Radius around Centre that holds the plate [m].
   double Radius = 0.0;
-  /// Largest luminance of its cells.
-  double MaximumLuminance = 0.0;
 };
 
-/// All emitters of a scene. Cells that light together (the lit cells of one sign, or one lamp cell)
-/// form a cluster, and a cluster is a tree of groups that act as one point from afar.
+/// A part of a light: cells with one normal and exponent that, from afar, act as one point.
+struct LightGroup
+{
+  /// Centre of the light that it emits, and the radius around it that holds the group [m].
+  Vec3 Centre{ 0.0 };
+  double Radius = 0.0;
+  Vec3 Normal{ 0.0 };
+  double Exponent = 0.0;
+  /// Sum of luminance times area [cd]; for a leaf the luminance is this over Area.
+  Spectrum Intensity{};
+  double Area = 0.0;
+  /// First of two children, which follow each other; -1: a leaf.
+  int FirstChild = -1;
+  /// A leaf's quadrilateral; a triangle repeats its last corner.
+  std::array<Vec3, 4> Corners{};
+};
+
+/// All emitters of a scene. Cells that light together (the lit cells of one sign that share a normal,
+/// or the cell of a lamp) form one light, a tree of groups.
 class EmitterSet
 {
 public:
   EmitterSet() = default;
-  /// Checks the cells; throws Error for polygons without area, negative or non-finite luminance.
+  /// Checks the cells; throws Error for polygons that are not plane and convex, and for luminances,
+  /// exponents or reflectances out of range.
   EmitterSet(std::vector<EmitterCell> cells, int bands);
 
-  /// A group of cells of one cluster with one normal and exponent.
-  struct Group
-  {
-    /// Flux-weighted centre, normal, and the radius around the centre that holds the group [m].
-    Vec3 Centre;
-    Vec3 Normal;
-    double Radius;
-    double Exponent;
-    /// Sum of luminance times area [cd].
-    Spectrum Intensity;
-    /// First of two children, or -1 for a single cell.
-    int FirstChild;
-    /// The cell of a leaf.
-    std::size_t Cell;
-  };
-
-  struct Cluster
-  {
-    /// Root group, and the groups' common centre, radius.
-    int Root;
-    Vec3 Centre;
-    double Radius;
-    /// Rectangle around the lit cells: its centre is Centre; half edges.
-    Vec3 HalfU, HalfV;
-    /// Normal of the plate where all its cells share one, else zero.
-    Vec3 Normal;
-  };
-
+  int Bands() const { return this->Bands_; }
   const std::vector<EmitterCell>& Cells() const { return this->Cells_; }
   const Vec3& CellNormal(std::size_t cell) const { return this->Normals_[cell]; }
-  double CellArea(std::size_t cell) const { return this->Areas_[cell]; }
   const Vec3& CellCentre(std::size_t cell) const { return this->Centres_[cell]; }
+  double CellArea(std::size_t cell) const { return this->Areas_[cell]; }
+  /// Signs in the order of their ids.
   const std::vector<Sign>& Signs() const { return this->Signs_; }
-  const std::vector<Cluster>& Clusters() const { return this->Clusters_; }
-  const std::vector<Group>& Groups() const { return this->Groups_; }
-  /// Luminous flux of a cell [lm]: 2 pi L A / (n + 2).
-  double CellFlux(std::size_t cell, int band) const;
+  /// Roots of the lights among Groups().
+  const std::vector<int>& Lights() const { return this->Lights_; }
+  const std::vector<LightGroup>& Groups() const { return this->Groups_; }
+  /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2).
+  double Flux(int band) const;
 
 private:
-  int BuildGroup(std::vector<std::size_t>& cells, std::size_t begin, std::size_t end, int bands);
   void FindSigns();
-  void BuildClusters(int bands);
+  void BuildLights();
+  void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);
 
+  int Bands_ = 1;
   std::vector<EmitterCell> Cells_;
   std::vector<Vec3> Normals_, Centres_;
   std::vector<double> Areas_;
   std::vector<Sign> Signs_;
-  std::vector<Cluster> Clusters_;
-  std::vector<Group> Groups_;
+  std::vector<int> Lights_;
+  std::vector<LightGroup> Groups_;
 };
 
 } // namespace smokevis

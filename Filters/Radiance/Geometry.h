@@ -37,6 +37,16 @@ struct Hit
   bool Found() const { return this->Distance < std::numeric_limits<double>::infinity(); }
 };
 
+/// Where a straight line passes through a shape, as seen from both sides.
+struct Crossing
+{
+  /// What the line meets coming from its beginning.
+  Hit Arrive;
+  /// What it would meet here coming from its end: the same triangle's other side, or the other of two
+  /// shapes that touch, such as a plate on a wall.
+  Hit Leave;
+};
+
 /// All opaque shapes of a scene: surfaces and the plates of the emitters. A plate that lies in a
 /// surface, or behind it by less than Tolerance(), wins over the surface when seen from its front.
 class Geometry
@@ -59,6 +69,9 @@ public:
 
   /// First shape met between two distances [m].
   Hit Intersect(const Vec3& origin, const Vec3& direction, double begin, double end) const;
+  /// All shapes that a line meets between two distances, in order; `crossings` is overwritten.
+  void Cross(const Vec3& origin, const Vec3& direction, double begin, double end,
+    std::vector<Crossing>& crossings) const;
   /// Whether anything opaque lies between two distances.
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Whether the straight line between two points is clear but for what touches its ends.

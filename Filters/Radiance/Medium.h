@@ -32,7 +32,8 @@ struct Segment
   double End;
 };
 
-/// All smoke of a scene. Cells of all grids are numbered through, grid after grid, x fastest.
+/// All smoke of a scene. Cells are numbered through, grid after grid as given, x fastest. Where grids
+/// overlap, the one with the smaller cells counts; outside all grids there is no smoke.
 class Medium
 {
 public:
@@ -45,6 +46,7 @@ public:
   /// Extinction coefficient at 633 nm [1/m].
   float Extinction(std::int64_t cell) const { return this->Extinction_[cell]; }
   float MaximumExtinction() const { return this->MaximumExtinction_; }
+  /// Whether any cell emits light of its own.
   bool Emits() const { return !this->EmittedLuminance_.empty(); }
   float EmittedLuminance(std::int64_t cell) const
   {
@@ -52,7 +54,6 @@ public:
   }
   Vec3 CellCentre(std::int64_t cell) const;
   Vec3 CellSize(std::int64_t cell) const;
-  double CellVolume(std::int64_t cell) const;
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
   /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it may
@@ -62,8 +63,8 @@ public:
   const Vec3& Lower() const { return this->Lower_; }
   const Vec3& Upper() const { return this->Upper_; }
 
-  /// Appends the pieces of the ray between distances `begin` and `end` that lie in smoke, in order.
-  /// Lengths of adjoining pieces telescope, so their sum is the ray's length in smoke to rounding.
+  /// Finds the pieces of the ray between two distances that lie in smoke, in order; `pieces` is
+  /// overwritten. Adjoining pieces share their ends, so that lengths add up to rounding.
   void Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
 
@@ -75,37 +76,36 @@ private:
   struct Grid
   {
     std::array<std::vector<double>, 3> Nodes;
-    /// Cells a metre along each axis where the nodes are uniform, else 0.
-    Vec3 InverseStep;
-    std::array<int, 3> Size;
-    std::int64_t FirstCell;
-    Vec3 Lower;
-    Vec3 Upper;
+    /// Cells a metre along each axis where the nodes are evenly spaced, else 0.
+    Vec3 InverseStep{ 0.0 };
+    std::array<int, 3> Size{};
+    std::int64_t FirstCell = 0;
+    Vec3 Lower{ 0.0 };
+    Vec3 Upper{ 0.0 };
+    /// Smallest cell volume, by which grids are ranked.
+    double Fineness = 0.0;
 
     int Index(int axis, double coordinate) const;
-    std::int64_t Cell(int i, int j, int k) const
+    std::int64_t Cell(const std::array<int, 3>& index) const
     {
-      return this->FirstCell + i + this->Size[0] * (j + static_cast<std::int64_t>(this->Size[1]) * k);
+      return this->FirstCell + index[0] +
+        this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
     }
-  };
-
-  struct Interval
-  {
-    double Begin;
-    double End;
-    int Grid;
+    bool Contains(const Vec3& point) const;
   };
 
   template <class Visit>
   void ForEachPiece(const Vec3& origin, const Vec3& direction, double begin, double end,
     Visit&& visit) const;
   template <class Visit>
-  void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction, double begin,
-    double end, Visit&& visit) const;
+  static void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction,
+    const Vec3& inverse, double begin, double end, Visit&& visit);
   const Grid& GridOf(std::int64_t cell, std::array<int, 3>& index) const;
 
-  /// Finest first.
+  /// As given, so that cells are numbered in that order.
   std::vector<Grid> Grids_;
+  /// Indices of the grids, finest first.
+  std::vector<int> Rank_;
   bool Overlap_ = false;
   std::vector<float> Extinction_;
   std::vector<float> EmittedLuminance_;

@@ -1,0 +1,288 @@
+#include "Emitters.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Newell's normal of a polygon; its length is twice the area.
+Vec3 AreaVector(const std::vector<Vec3>& vertices)
+{
+  Vec3 sum(0.0);
+  for (std::size_t i = 2; i < vertices.size(); ++i)
+  {
+    sum += glm::cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
+  }
+  return sum;
+}
+
+void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
+{
+  const std::string where = "emitter cell " + std::to_string(index);
+  const std::size_t count = cell.Vertices.size();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    longest = std::max(longest, glm::length(cell.Vertices[i] - cell.Vertices[(i + 1) % count]));
+  }
+  const Vec3 area = AreaVector(cell.Vertices);
+  if (count < 3 || !(glm::length(area) > 1e-12 * longest * longest))
+  {
+    throw Error(where, "the polygon has no area", "Remove it or give it three distinct corners");
+  }
+  const Vec3 normal = glm::normalize(area);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Vec3& a = cell.Vertices[i];
+    const Vec3& b = cell.Vertices[(i + 1) % count];
+    const Vec3& c = cell.Vertices[(i + 2) % count];
+    const double turn = glm::dot(glm::cross(b - a, c - b), normal);
+    const double lift = std::abs(glm::dot(a - cell.Vertices[0], normal));
+    if (turn < -1e-6 * longest * longest || lift > 1e-3 * longest)
+    {
+      throw Error(where, "the polygon is not plane and convex", "Triangulate the emitters");
+    }
+  }
+  for (int band = 0; band < bands; ++band)
+  {
+    if (!(cell.Luminance[band] >= 0.0) || !std::isfinite(cell.Luminance[band]))
+    {
+      throw Error(where, "the luminance is " + std::to_string(cell.Luminance[band]) + " cd/m2",
+        "It must be finite and not negative");
+    }
+    if (!(cell.Reflectance[band] >= 0.0 && cell.Reflectance[band] <= 1.0))
+    {
+      throw Error(where, "the reflectance is " + std::to_string(cell.Reflectance[band]),
+        "It must lie between 0 and 1");
+    }
+  }
+  if (!(cell.Exponent >= 0.0) || !std::isfinite(cell.Exponent))
+  {
+    throw Error(where, "the emission exponent is " + std::to_string(cell.Exponent),
+      "It must be finite and not negative");
+  }
+}
+
+LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::array<Vec3, 4>& corners)
+{
+  LightGroup leaf;
+  leaf.Corners = corners;
+  leaf.Normal = normal;
+  leaf.Exponent = cell.Exponent;
+  const double first =
+    0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double second =
+    0.5 * glm::length(glm::cross(corners[2] - corners[0], corners[3] - corners[0]));
+  leaf.Area = first + second;
+  leaf.Centre = (first * (corners[0] + corners[1] + corners[2]) +
+                  second * (corners[0] + corners[2] + corners[3])) /
+    (3.0 * leaf.Area);
+  for (const Vec3& corner : corners)
+  {
+    leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
+  }
+  for (int band = 0; band < MaxBands; ++band)
+  {
+    leaf.Intensity[band] = cell.Luminance[band] * leaf.Area;
+  }
+  return leaf;
+}
+
+} // namespace
+
+EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands)
+  : Bands_(bands)
+  , Cells_(std::move(cells))
+{
+  for (std::size_t index = 0; index < this->Cells_.size(); ++index)
+  {
+    const EmitterCell& cell = this->Cells_[index];
+    CheckCell(cell, index, bands);
+    const Vec3 area = AreaVector(cell.Vertices);
+    this->Areas_.push_back(0.5 * glm::length(area));
+    this->Normals_.push_back(glm::normalize(area));
+    Vec3 centre(0.0);
+    for (std::size_t i = 2; i < cell.Vertices.size(); ++i)
+    {
+      const Vec3& a = cell.Vertices[0];
+      const Vec3& b = cell.Vertices[i - 1];
+      const Vec3& c = cell.Vertices[i];
+      centre += glm::dot(glm::cross(b - a, c - a), this->Normals_.back()) * (a + b + c);
+    }
+    this->Centres_.push_back(centre / (6.0 * this->Areas_.back()));
+  }
+  this->FindSigns();
+  this->BuildLights();
+}
+
+double EmitterSet::Flux(int band) const
+{
+  double flux = 0.0;
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    flux += glm::two_pi<double>() * this->Cells_[i].Luminance[band] * this->Areas_[i] /
+      (this->Cells_[i].Exponent + 2.0);
+  }
+  return flux;
+}
+
+void EmitterSet::FindSigns()
+{
+  std::map<int, Sign> signs;
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    if (this->Cells_[i].SignId >= 0)
+    {
+      signs[this->Cells_[i].SignId].Cells.push_back(i);
+    }
+  }
+  for (auto& [id, sign] : signs)
+  {
+    sign.Id = id;
+    for (const std::size_t cell : sign.Cells)
+    {
+      sign.Normal += this->Areas_[cell] * this->Normals_[cell];
+    }
+    // Cells that face all ways have no common front: the first one's stands for them.
+    const Vec3 first = this->Normals_[sign.Cells.front()];
+    sign.Normal = glm::length(sign.Normal) > 0.0 ? glm::normalize(sign.Normal) : first;
+    const std::vector<Vec3>& vertices = this->Cells_[sign.Cells.front()].Vertices;
+    const Vec3 edge = vertices[1] - vertices[0];
+    const Vec3 u = glm::normalize(edge - glm::dot(edge, sign.Normal) * sign.Normal);
+    const Vec3 v = glm::cross(sign.Normal, u);
+    glm::dvec2 low(1e300);
+    glm::dvec2 high(-1e300);
+    double depth = 0.0;
+    double area = 0.0;
+    for (const std::size_t cell : sign.Cells)
+    {
+      for (const Vec3& vertex : this->Cells_[cell].Vertices)
+      {
+        const glm::dvec2 at(glm::dot(vertex - vertices[0], u), glm::dot(vertex - vertices[0], v));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+      }
+      depth += this->Areas_[cell] * glm::dot(this->Centres_[cell] - vertices[0], sign.Normal);
+      area += this->Areas_[cell];
+    }
+    const Vec3 base = vertices[0] + depth / area * sign.Normal;
+    sign.Corners = { base + low.x * u + low.y * v, base + high.x * u + low.y * v,
+      base + high.x * u + high.y * v, base + low.x * u + high.y * v };
+    sign.Centre = 0.5 * (sign.Corners[0] + sign.Corners[2]);
+    sign.Radius = 0.5 * glm::length(sign.Corners[2] - sign.Corners[0]);
+    this->Signs_.push_back(sign);
+  }
+}
+
+void EmitterSet::BuildLights()
+{
+  // Lamps stay apart; the cells of a sign join where normal and exponent agree.
+  std::vector<std::vector<LightGroup>> lights;
+  std::map<int, std::vector<std::size_t>> lightsOfSign;
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    const EmitterCell& cell = this->Cells_[i];
+    if (*std::max_element(cell.Luminance.begin(), cell.Luminance.begin() + this->Bands_) <= 0.0)
+    {
+      continue;
+    }
+    std::vector<LightGroup>* light = nullptr;
+    if (cell.SignId >= 0)
+    {
+      for (const std::size_t candidate : lightsOfSign[cell.SignId])
+      {
+        const LightGroup& other = lights[candidate].front();
+        if (other.Exponent == cell.Exponent &&
+          glm::length(other.Normal - this->Normals_[i]) < 1e-6)
+        {
+          light = &lights[candidate];
+          break;
+        }
+      }
+    }
+    if (light == nullptr)
+    {
+      if (cell.SignId >= 0)
+      {
+        lightsOfSign[cell.SignId].push_back(lights.size());
+      }
+      light = &lights.emplace_back();
+    }
+    const std::vector<Vec3>& vertices = cell.Vertices;
+    for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
+    {
+      const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
+      light->push_back(
+        MakeLeaf(cell, this->Normals_[i], { vertices[0], vertices[v], vertices[v + 1], last }));
+    }
+  }
+  for (std::vector<LightGroup>& leaves : lights)
+  {
+    this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
+    this->Groups_.emplace_back();
+    this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
+  }
+}
+
+void EmitterSet::FillGroup(
+  int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end)
+{
+  if (end - begin == 1)
+  {
+    this->Groups_[group] = leaves[begin];
+    return;
+  }
+  LightGroup all = leaves[begin];
+  all.Intensity = {};
+  all.Area = 0.0;
+  Vec3 sum(0.0);
+  double weight = 0.0;
+  Vec3 low(1e300);
+  Vec3 high(-1e300);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    double total = 0.0;
+    for (int band = 0; band < this->Bands_; ++band)
+    {
+      all.Intensity[band] += leaves[i].Intensity[band];
+      total += leaves[i].Intensity[band];
+    }
+    all.Area += leaves[i].Area;
+    sum += total * leaves[i].Centre;
+    weight += total;
+    low = glm::min(low, leaves[i].Centre);
+    high = glm::max(high, leaves[i].Centre);
+  }
+  all.Centre = sum / weight;
+  all.Radius = 0.0;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    for (const Vec3& corner : leaves[i].Corners)
+    {
+      all.Radius = std::max(all.Radius, glm::length(corner - all.Centre));
+    }
+  }
+  const Vec3 extent = high - low;
+  const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2)
+                                        : (extent.y >= extent.z ? 1 : 2);
+  const std::size_t middle = begin + (end - begin) / 2;
+  std::nth_element(leaves.begin() + begin, leaves.begin() + middle, leaves.begin() + end,
+    [axis](const LightGroup& a, const LightGroup& b) { return a.Centre[axis] < b.Centre[axis]; });
+  all.FirstChild = static_cast<int>(this->Groups_.size());
+  this->Groups_[group] = all;
+  this->Groups_.resize(this->Groups_.size() + 2);
+  this->FillGroup(all.FirstChild, leaves, begin, middle);
+  this->FillGroup(all.FirstChild + 1, leaves, middle, end);
+}
+
+} // namespace smokevis

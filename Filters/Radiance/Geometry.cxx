@@ -1,0 +1,361 @@
+#include "Geometry.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <embree3/rtcore.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// Shapes that touch lie within this share of the scene's size: well above the rounding of the single
+/// precision that Embree works in, well below anything that matters to light.
+constexpr double RelativeTolerance = 1e-5;
+
+struct DeviceRelease
+{
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease
+{
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
+
+/// Triangles of one kind, in double precision, with their search structure.
+struct Shapes
+{
+  std::vector<Vec3> Corner, Normal;
+  std::vector<std::uint32_t> Cell;
+  SceneHandle Tree;
+};
+
+std::vector<std::array<std::uint32_t, 3>> UsefulTriangles(
+  const SurfaceMesh& mesh, std::vector<std::uint32_t>& cells)
+{
+  using Key = std::array<double, 9>;
+  std::set<Key> known;
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    const auto& triangle = mesh.Triangles[i];
+    std::array<Vec3, 3> corner;
+    for (int c = 0; c < 3; ++c)
+    {
+      corner[c] = mesh.Points[triangle[c]];
+      if (!std::isfinite(corner[c].x) || !std::isfinite(corner[c].y) ||
+        !std::isfinite(corner[c].z))
+      {
+        throw Error("surface cell " + std::to_string(mesh.TriangleCell[i]),
+          "a corner has no finite coordinates", "Check the geometry that is put in");
+      }
+    }
+    const double longest = std::max({ glm::length(corner[1] - corner[0]),
+      glm::length(corner[2] - corner[1]), glm::length(corner[0] - corner[2]) });
+    const double area = glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    if (!(area > 1e-12 * longest * longest))
+    {
+      continue;
+    }
+    std::sort(corner.begin(), corner.end(),
+      [](const Vec3& a, const Vec3& b)
+      { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; });
+    const Key key = { corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y,
+      corner[1].z, corner[2].x, corner[2].y, corner[2].z };
+    if (known.insert(key).second)
+    {
+      kept.push_back(triangle);
+      cells.push_back(mesh.TriangleCell[i]);
+    }
+  }
+  return kept;
+}
+
+} // namespace
+
+struct Geometry::Implementation
+{
+  DeviceHandle Device;
+  Shapes Surfaces, Emitters;
+  Vec3 Centre{ 0.0 };
+  double Size = 0.0;
+  double Tolerance = 0.0;
+
+  void Add(Shapes& shapes, const SurfaceMesh& mesh) const
+  {
+    const auto triangles = UsefulTriangles(mesh, shapes.Cell);
+    if (triangles.empty())
+    {
+      return;
+    }
+    RTCGeometry geometry = rtcNewGeometry(this->Device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
+      RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.Points.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
+      RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+    if (vertices == nullptr || indices == nullptr)
+    {
+      rtcReleaseGeometry(geometry);
+      throw Error("surfaces", "Embree has no memory for " + std::to_string(triangles.size()) +
+          " triangles", "Use a coarser model or a machine with more memory");
+    }
+    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        vertices[3 * i + axis] = static_cast<float>(mesh.Points[i][axis] - this->Centre[axis]);
+      }
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+    {
+      const auto& triangle = triangles[i];
+      std::copy(triangle.begin(), triangle.end(), indices + 3 * i);
+      const Vec3& corner = mesh.Points[triangle[0]];
+      shapes.Corner.push_back(corner);
+      shapes.Normal.push_back(glm::normalize(glm::cross(
+        mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
+    }
+    rtcCommitGeometry(geometry);
+    shapes.Tree.reset(rtcNewScene(this->Device.get()));
+    rtcSetSceneFlags(shapes.Tree.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(shapes.Tree.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(shapes.Tree.get());
+  }
+
+  /// A ray in Embree's units, moved forward in double precision so that its start is exact.
+  static RTCRay MakeRay(const Vec3& origin, const Vec3& direction, double length)
+  {
+    RTCRay ray;
+    ray.org_x = static_cast<float>(origin.x);
+    ray.org_y = static_cast<float>(origin.y);
+    ray.org_z = static_cast<float>(origin.z);
+    ray.dir_x = static_cast<float>(direction.x);
+    ray.dir_y = static_cast<float>(direction.y);
+    ray.dir_z = static_cast<float>(direction.z);
+    ray.tnear = 0.0F;
+    ray.tfar = static_cast<float>(length);
+    ray.time = 0.0F;
+    ray.mask = ~0U;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+  }
+
+  Hit IntersectOne(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
+    double end) const
+  {
+    Hit hit;
+    if (!shapes.Tree || !(end > begin))
+    {
+      return hit;
+    }
+    RTCRayHit query;
+    query.ray = MakeRay(origin + begin * direction - this->Centre, direction, end - begin);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(shapes.Tree.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    {
+      return hit;
+    }
+    hit.Triangle = query.hit.primID;
+    // The plane of the triangle gives the distance to double precision.
+    const Vec3& normal = shapes.Normal[hit.Triangle];
+    const double facing = glm::dot(normal, direction);
+    const double rough = begin + query.ray.tfar;
+    const double exact = glm::dot(normal, shapes.Corner[hit.Triangle] - origin) / facing;
+    hit.Distance = std::abs(exact - rough) <= 100.0 * this->Tolerance ? exact : rough;
+    hit.Distance = std::clamp(hit.Distance, begin, end);
+    hit.Side = facing < 0.0 ? 0 : 1;
+    return hit;
+  }
+
+  /// Whether a plate that was hit lies in the surface that was hit, to within the tolerance.
+  bool Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const
+  {
+    const double facing = std::abs(glm::dot(this->Emitters.Normal[plate.Triangle], direction));
+    return std::abs(plate.Distance - surface.Distance) * facing <= this->Tolerance;
+  }
+
+  /// The surface and the plate that a ray meets first; a plate farther than the surface is only looked
+  /// for as deep as it can still touch it.
+  void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
+    Hit& surface, Hit& plate) const
+  {
+    surface = this->IntersectOne(this->Surfaces, origin, direction, begin, end);
+    const double reach = std::min(end, surface.Distance + 20.0 * this->Tolerance);
+    plate = this->IntersectOne(this->Emitters, origin, direction, begin, reach);
+    plate.Emitter = true;
+  }
+
+  bool OccludedBy(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
+    double end) const
+  {
+    if (!shapes.Tree || !(end > begin))
+    {
+      return false;
+    }
+    RTCRay ray = MakeRay(origin + begin * direction - this->Centre, direction, end - begin);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(shapes.Tree.get(), &context, &ray);
+    return ray.tfar < 0.0F;
+  }
+};
+
+Geometry::Geometry()
+  : Implementation_(std::make_unique<Implementation>())
+{
+}
+
+Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters)
+  : Geometry()
+{
+  Implementation& self = *this->Implementation_;
+  Vec3 lower(Infinity);
+  Vec3 upper(-Infinity);
+  for (const SurfaceMesh* mesh : { &surfaces, &emitters })
+  {
+    for (const Vec3& point : mesh->Points)
+    {
+      lower = glm::min(lower, point);
+      upper = glm::max(upper, point);
+    }
+  }
+  if (surfaces.Points.empty() && emitters.Points.empty())
+  {
+    return;
+  }
+  self.Centre = 0.5 * (lower + upper);
+  self.Size = glm::length(upper - lower);
+  self.Tolerance = RelativeTolerance * self.Size;
+  self.Device.reset(rtcNewDevice("threads=1,set_affinity=0"));
+  if (!self.Device)
+  {
+    throw Error("surfaces", "Embree could not be started", "Check that the machine has SSE2");
+  }
+  self.Add(self.Surfaces, surfaces);
+  self.Add(self.Emitters, emitters);
+}
+
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+bool Geometry::Empty() const
+{
+  return !this->Implementation_->Surfaces.Tree && !this->Implementation_->Emitters.Tree;
+}
+
+double Geometry::Tolerance() const
+{
+  return this->Implementation_->Tolerance;
+}
+
+std::uint32_t Geometry::Cell(const Hit& hit) const
+{
+  const Implementation& self = *this->Implementation_;
+  return (hit.Emitter ? self.Emitters : self.Surfaces).Cell[hit.Triangle];
+}
+
+Vec3 Geometry::Normal(const Hit& hit) const
+{
+  const Implementation& self = *this->Implementation_;
+  return (hit.Emitter ? self.Emitters : self.Surfaces).Normal[hit.Triangle];
+}
+
+Hit Geometry::Intersect(
+  const Vec3& origin, const Vec3& direction, double begin, double end) const
+{
+  const Implementation& self = *this->Implementation_;
+  Hit surface;
+  Hit plate;
+  self.IntersectBoth(origin, direction, begin, end, surface, plate);
+  if (!plate.Found())
+  {
+    return surface;
+  }
+  // A plate mounted on a wall is seen from its front only, whichever way rounding falls.
+  if (surface.Found() && self.Touch(surface, plate, direction))
+  {
+    return plate.Side == 0 ? plate : surface;
+  }
+  return plate.Distance < surface.Distance ? plate : surface;
+}
+
+void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, double end,
+  std::vector<Crossing>& crossings) const
+{
+  const Implementation& self = *this->Implementation_;
+  crossings.clear();
+  const double gap = 2.0 * self.Tolerance;
+  const auto otherSide = [](Hit hit)
+  {
+    hit.Side = 1 - hit.Side;
+    return hit;
+  };
+  while (end > begin)
+  {
+    Hit surface;
+    Hit plate;
+    self.IntersectBoth(origin, direction, begin, end, surface, plate);
+    if (!surface.Found() && !plate.Found())
+    {
+      return;
+    }
+    Crossing crossing;
+    if (surface.Found() && plate.Found() && self.Touch(surface, plate, direction))
+    {
+      crossing.Arrive = plate.Side == 0 ? plate : surface;
+      crossing.Leave = otherSide(plate.Side == 0 ? surface : plate);
+    }
+    else
+    {
+      crossing.Arrive = plate.Distance < surface.Distance ? plate : surface;
+      crossing.Leave = otherSide(crossing.Arrive);
+    }
+    begin = std::max(crossing.Arrive.Distance, crossing.Leave.Distance) + gap;
+    // A line meets a plane triangle once: a second time is rounding at grazing incidence.
+    const bool again = !crossings.empty() &&
+      crossings.back().Arrive.Triangle == crossing.Arrive.Triangle &&
+      crossings.back().Arrive.Emitter == crossing.Arrive.Emitter;
+    if (!again)
+    {
+      crossings.push_back(crossing);
+    }
+  }
+}
+
+bool Geometry::Occluded(
+  const Vec3& origin, const Vec3& direction, double begin, double end) const
+{
+  const Implementation& self = *this->Implementation_;
+  return self.OccludedBy(self.Surfaces, origin, direction, begin, end) ||
+    self.OccludedBy(self.Emitters, origin, direction, begin, end);
+}
+
+bool Geometry::Visible(const Vec3& from, const Vec3& to) const
+{
+  const double length = glm::length(to - from);
+  const double gap = 2.0 * this->Tolerance();
+  if (length <= 2.0 * gap)
+  {
+    return true;
+  }
+  return !this->Occluded(from, (to - from) / length, gap, length - gap);
+}
+
+} // namespace smokevis

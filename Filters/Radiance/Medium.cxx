@@ -1,0 +1,442 @@
+#include "Medium.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+void CheckGrid(const SmokeGrid& grid)
+{
+  std::size_t cells = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double>& nodes = grid.Nodes[axis];
+    const std::string where = "smoke grid '" + grid.Name + "', axis " + "xyz"[axis];
+    if (nodes.size() < 2)
+    {
+      throw Error(where, "the grid has no cells along this axis", "Give at least two node planes");
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if (!std::isfinite(nodes[i]) || (i > 0 && nodes[i] <= nodes[i - 1]))
+      {
+        throw Error(where, "node " + std::to_string(i) + " does not lie above the one before it",
+          "Node coordinates must be finite and strictly increasing");
+      }
+    }
+    cells *= nodes.size() - 1;
+  }
+  if (grid.Extinction.size() != cells)
+  {
+    throw Error("smoke grid '" + grid.Name + "'",
+      "there are " + std::to_string(grid.Extinction.size()) + " extinction values for " +
+        std::to_string(cells) + " cells",
+      "Give one value a cell");
+  }
+  if (!grid.EmittedLuminance.empty() && grid.EmittedLuminance.size() != cells)
+  {
+    throw Error("smoke grid '" + grid.Name + "'",
+      "emitted luminance is not given for every cell", "Give one value a cell, or none at all");
+  }
+  const auto check = [&](const std::vector<float>& values, const char* quantity)
+  {
+    for (std::size_t cell = 0; cell < values.size(); ++cell)
+    {
+      if (!(values[cell] >= 0.0F) || std::isinf(values[cell]))
+      {
+        throw Error("smoke grid '" + grid.Name + "', cell " + std::to_string(cell),
+          std::string(quantity) + " is " + std::to_string(values[cell]),
+          "It must be finite and not negative");
+      }
+    }
+  };
+  check(grid.Extinction, "the extinction coefficient");
+  check(grid.EmittedLuminance, "the emitted luminance");
+}
+
+} // namespace
+
+int Medium::Grid::Index(int axis, double coordinate) const
+{
+  const std::vector<double>& nodes = this->Nodes[axis];
+  const int last = this->Size[axis] - 1;
+  int index = 0;
+  if (this->InverseStep[axis] > 0.0)
+  {
+    const double guess = (coordinate - nodes.front()) * this->InverseStep[axis];
+    index = guess <= 0.0 ? 0 : guess >= last ? last : static_cast<int>(guess);
+  }
+  else
+  {
+    index = static_cast<int>(
+              std::upper_bound(nodes.begin(), nodes.end(), coordinate) - nodes.begin()) - 1;
+    index = std::clamp(index, 0, last);
+  }
+  // The guess can be one off by rounding.
+  while (index < last && coordinate >= nodes[index + 1])
+  {
+    ++index;
+  }
+  while (index > 0 && coordinate < nodes[index])
+  {
+    --index;
+  }
+  return index;
+}
+
+bool Medium::Grid::Contains(const Vec3& point) const
+{
+  return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
+    glm::all(glm::lessThanEqual(point, this->Upper));
+}
+
+Medium::Medium(std::vector<SmokeGrid> grids)
+{
+  this->Lower_ = Vec3(Infinity);
+  this->Upper_ = Vec3(-Infinity);
+  std::size_t cells = 0;
+  bool emits = false;
+  for (const SmokeGrid& grid : grids)
+  {
+    CheckGrid(grid);
+    cells += grid.Extinction.size();
+    emits = emits || !grid.EmittedLuminance.empty();
+  }
+  this->Extinction_.reserve(cells);
+  for (SmokeGrid& source : grids)
+  {
+    Grid grid;
+    grid.FirstCell = static_cast<std::int64_t>(this->Extinction_.size());
+    grid.Fineness = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& nodes = source.Nodes[axis];
+      grid.Size[axis] = static_cast<int>(nodes.size()) - 1;
+      grid.Lower[axis] = nodes.front();
+      grid.Upper[axis] = nodes.back();
+      double smallest = Infinity;
+      double largest = 0.0;
+      for (std::size_t i = 1; i < nodes.size(); ++i)
+      {
+        smallest = std::min(smallest, nodes[i] - nodes[i - 1]);
+        largest = std::max(largest, nodes[i] - nodes[i - 1]);
+      }
+      grid.Fineness *= smallest;
+      if (largest <= smallest * 1.001)
+      {
+        grid.InverseStep[axis] = grid.Size[axis] / (nodes.back() - nodes.front());
+      }
+    }
+    grid.Nodes = std::move(source.Nodes);
+    this->Lower_ = glm::min(this->Lower_, grid.Lower);
+    this->Upper_ = glm::max(this->Upper_, grid.Upper);
+    this->Extinction_.insert(
+      this->Extinction_.end(), source.Extinction.begin(), source.Extinction.end());
+    if (emits)
+    {
+      this->EmittedLuminance_.insert(this->EmittedLuminance_.end(),
+        source.EmittedLuminance.begin(), source.EmittedLuminance.end());
+      this->EmittedLuminance_.resize(this->Extinction_.size(), 0.0F);
+    }
+    this->Grids_.push_back(std::move(grid));
+  }
+  if (cells == 0)
+  {
+    this->Lower_ = this->Upper_ = Vec3(0.0);
+    return;
+  }
+  this->MaximumExtinction_ =
+    *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
+
+  this->Rank_.resize(this->Grids_.size());
+  std::iota(this->Rank_.begin(), this->Rank_.end(), 0);
+  std::stable_sort(this->Rank_.begin(), this->Rank_.end(),
+    [this](int a, int b) { return this->Grids_[a].Fineness < this->Grids_[b].Fineness; });
+  for (std::size_t a = 0; a < this->Grids_.size() && !this->Overlap_; ++a)
+  {
+    for (std::size_t b = 0; b < a && !this->Overlap_; ++b)
+    {
+      const Vec3 lower = glm::max(this->Grids_[a].Lower, this->Grids_[b].Lower);
+      const Vec3 upper = glm::min(this->Grids_[a].Upper, this->Grids_[b].Upper);
+      this->Overlap_ = glm::all(glm::lessThan(lower, upper));
+    }
+  }
+}
+
+const Medium::Grid& Medium::GridOf(std::int64_t cell, std::array<int, 3>& index) const
+{
+  const auto after = std::upper_bound(this->Grids_.begin(), this->Grids_.end(), cell,
+    [](std::int64_t value, const Grid& grid) { return value < grid.FirstCell; });
+  const Grid& grid = *(after - 1);
+  std::int64_t local = cell - grid.FirstCell;
+  index[0] = static_cast<int>(local % grid.Size[0]);
+  local /= grid.Size[0];
+  index[1] = static_cast<int>(local % grid.Size[1]);
+  index[2] = static_cast<int>(local / grid.Size[1]);
+  return grid;
+}
+
+Vec3 Medium::CellCentre(std::int64_t cell) const
+{
+  std::array<int, 3> index;
+  const Grid& grid = this->GridOf(cell, index);
+  Vec3 centre;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* node = grid.Nodes[axis].data() + index[axis];
+    centre[axis] = 0.5 * (node[0] + node[1]);
+  }
+  return centre;
+}
+
+Vec3 Medium::CellSize(std::int64_t cell) const
+{
+  std::array<int, 3> index;
+  const Grid& grid = this->GridOf(cell, index);
+  Vec3 size;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* node = grid.Nodes[axis].data() + index[axis];
+    size[axis] = node[1] - node[0];
+  }
+  return size;
+}
+
+std::int64_t Medium::Locate(const Vec3& point) const
+{
+  for (const int rank : this->Rank_)
+  {
+    const Grid& grid = this->Grids_[rank];
+    if (grid.Contains(point))
+    {
+      return grid.Cell(
+        { grid.Index(0, point.x), grid.Index(1, point.y), grid.Index(2, point.z) });
+    }
+  }
+  return -1;
+}
+
+std::int64_t Medium::Neighbour(std::int64_t cell, int axis, int side) const
+{
+  std::array<int, 3> index;
+  const Grid& grid = this->GridOf(cell, index);
+  const int step = side == 0 ? -1 : 1;
+  const int moved = index[axis] + step;
+  Vec3 point;
+  for (int other = 0; other < 3; ++other)
+  {
+    const double* node = grid.Nodes[other].data() + index[other];
+    point[other] = 0.5 * (node[0] + node[1]);
+  }
+  const bool inside = moved >= 0 && moved < grid.Size[axis];
+  if (inside && !this->Overlap_)
+  {
+    index[axis] = moved;
+    return grid.Cell(index);
+  }
+  if (inside)
+  {
+    const double* node = grid.Nodes[axis].data() + moved;
+    point[axis] = 0.5 * (node[0] + node[1]);
+  }
+  else
+  {
+    const double* node = grid.Nodes[axis].data() + index[axis];
+    point[axis] = (side == 0 ? node[0] : node[1]) + step * 0.25 * (node[1] - node[0]);
+  }
+  return this->Locate(point);
+}
+
+template <class Visit>
+void Medium::WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction,
+  const Vec3& inverse, double begin, double end, Visit&& visit)
+{
+  const Vec3 start = origin + begin * direction;
+  std::array<int, 3> index;
+  std::array<double, 3> next;
+  std::array<int, 3> step;
+  std::array<const double*, 3> plane;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    index[axis] = grid.Index(axis, start[axis]);
+    const double* nodes = grid.Nodes[axis].data();
+    if (direction[axis] > 0.0)
+    {
+      step[axis] = 1;
+      plane[axis] = nodes + index[axis] + 1;
+    }
+    else if (direction[axis] < 0.0)
+    {
+      step[axis] = -1;
+      // A start on a plane lies in the cell that the ray goes into.
+      if (start[axis] <= nodes[index[axis]] && index[axis] > 0)
+      {
+        --index[axis];
+      }
+      plane[axis] = nodes + index[axis];
+    }
+    else
+    {
+      step[axis] = 0;
+      plane[axis] = nodes;
+      next[axis] = Infinity;
+      continue;
+    }
+    next[axis] = (*plane[axis] - origin[axis]) * inverse[axis];
+  }
+  const std::array<std::int64_t, 3> stride = { step[0],
+    static_cast<std::int64_t>(step[1]) * grid.Size[0],
+    static_cast<std::int64_t>(step[2]) * grid.Size[0] * grid.Size[1] };
+  std::int64_t cell = grid.Cell(index);
+  double at = begin;
+  for (;;)
+  {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    const double leave = next[axis];
+    if (leave >= end)
+    {
+      break;
+    }
+    if (leave > at)
+    {
+      visit(cell, at, leave);
+      at = leave;
+    }
+    index[axis] += step[axis];
+    if (index[axis] < 0 || index[axis] >= grid.Size[axis])
+    {
+      // Only rounding leads out before the end: the rest belongs to the last cell.
+      if (end > at)
+      {
+        visit(cell, at, end);
+      }
+      return;
+    }
+    cell += stride[axis];
+    plane[axis] += step[axis];
+    next[axis] = (*plane[axis] - origin[axis]) * inverse[axis];
+  }
+  if (end > at)
+  {
+    visit(cell, at, end);
+  }
+}
+
+template <class Visit>
+void Medium::ForEachPiece(
+  const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const
+{
+  struct Interval
+  {
+    double Begin, End;
+    int Rank;
+  };
+  thread_local std::vector<Interval> intervals;
+  intervals.clear();
+  const Vec3 inverse = 1.0 / direction;
+  for (std::size_t rank = 0; rank < this->Rank_.size(); ++rank)
+  {
+    const Grid& grid = this->Grids_[this->Rank_[rank]];
+    double enter = begin;
+    double leave = end;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (direction[axis] == 0.0)
+      {
+        if (origin[axis] < grid.Lower[axis] || origin[axis] > grid.Upper[axis])
+        {
+          leave = -Infinity;
+        }
+        continue;
+      }
+      const double low = (grid.Lower[axis] - origin[axis]) * inverse[axis];
+      const double high = (grid.Upper[axis] - origin[axis]) * inverse[axis];
+      enter = std::max(enter, std::min(low, high));
+      leave = std::min(leave, std::max(low, high));
+    }
+    if (leave > enter)
+    {
+      intervals.push_back({ enter, leave, static_cast<int>(rank) });
+    }
+  }
+  const auto walk = [&](int rank, double from, double to)
+  { WalkGrid(this->Grids_[this->Rank_[rank]], origin, direction, inverse, from, to, visit); };
+  if (intervals.size() == 1)
+  {
+    walk(intervals[0].Rank, intervals[0].Begin, intervals[0].End);
+    return;
+  }
+  if (!this->Overlap_)
+  {
+    std::sort(intervals.begin(), intervals.end(),
+      [](const Interval& a, const Interval& b)
+      { return a.Begin != b.Begin ? a.Begin < b.Begin : a.Rank < b.Rank; });
+    double at = begin;
+    for (const Interval& interval : intervals)
+    {
+      // A ray in the face between two grids lies in both: it counts once.
+      const double from = std::max(at, interval.Begin);
+      if (interval.End > from)
+      {
+        walk(interval.Rank, from, interval.End);
+        at = interval.End;
+      }
+    }
+    return;
+  }
+  // Between two neighbouring ends the finest grid there counts.
+  thread_local std::vector<double> ends;
+  ends.clear();
+  for (const Interval& interval : intervals)
+  {
+    ends.push_back(interval.Begin);
+    ends.push_back(interval.End);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 1; i < ends.size(); ++i)
+  {
+    const double from = ends[i - 1];
+    const double to = ends[i];
+    if (to <= from)
+    {
+      continue;
+    }
+    for (const Interval& interval : intervals)
+    {
+      if (interval.Begin <= from && interval.End >= to)
+      {
+        walk(interval.Rank, from, to);
+        break;
+      }
+    }
+  }
+}
+
+void Medium::Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
+  std::vector<Segment>& pieces) const
+{
+  pieces.clear();
+  this->ForEachPiece(origin, direction, begin, end,
+    [&pieces](std::int64_t cell, double from, double to) { pieces.push_back({ cell, from, to }); });
+}
+
+double Medium::OpticalDepth(
+  const Vec3& origin, const Vec3& direction, double begin, double end) const
+{
+  double depth = 0.0;
+  this->ForEachPiece(origin, direction, begin, end,
+    [&](std::int64_t cell, double from, double to) { depth += this->Extinction_[cell] * (to - from); });
+  return depth;
+}
+
+} // namespace smokevis
