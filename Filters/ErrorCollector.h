@@ -1,5 +1,5 @@
-// Keeps the error messages of a VTK object that works inside another one, so that the user reads one
-// message instead of several.
+// Keeps the error messages of a VTK object that works inside another one, so that the user reads
+// one message instead of several.
 #pragma once
 
 #include <vtkCommand.h>

@@ -47,8 +47,8 @@ void StoreSmoke(const LightField& field, std::size_t firstCell, int bands, vtkDa
   {
     for (int band = 0; band < bands; ++band)
     {
-      const std::size_t index = field.CellIndex(
-        std::min(band, field.Bands - 1), static_cast<std::int64_t>(firstCell) + i);
+      const std::size_t index =
+        field.CellIndex(std::min(band, field.Bands - 1), static_cast<std::int64_t>(firstCell) + i);
       const Lanes& lanes = field.MultipleFluence[index];
       direct->SetTypedComponent(i, band, field.DirectFluence[index]);
       fluence->SetTypedComponent(
@@ -94,11 +94,11 @@ class NeededArray
 {
 public:
   NeededArray(vtkDataSet& block, const std::string& blockName, const char* name, int components)
-    : Values_(block.GetCellData()->GetArray(name))
-    , Where_("cell array " + std::string(name) + " of block '" + blockName + "'")
+      : Values_(block.GetCellData()->GetArray(name)),
+        Where_("cell array " + std::string(name) + " of block '" + blockName + "'")
   {
     if (!this->Values_ || this->Values_->GetNumberOfComponents() < components ||
-      this->Values_->GetNumberOfTuples() != block.GetNumberOfCells())
+        this->Values_->GetNumberOfTuples() != block.GetNumberOfCells())
     {
       throw Error(this->Where_, "it is missing or has another size than the light field needs",
         "Give the output of SmokeLightField, or a file that it was saved to");
@@ -109,8 +109,8 @@ public:
   float Get(vtkIdType cell, int component) const
   {
     const float value = this->Floats_
-      ? this->Floats_->GetTypedComponent(cell, component)
-      : static_cast<float>(this->Values_->GetComponent(cell, component));
+                          ? this->Floats_->GetTypedComponent(cell, component)
+                          : static_cast<float>(this->Values_->GetComponent(cell, component));
     if (!std::isfinite(value))
     {
       throw Error(this->Where_, "the value of cell " + std::to_string(cell) + " is not finite",
@@ -133,8 +133,7 @@ private:
   std::string Where_;
 };
 
-void LoadSmoke(
-  const SmokeBlock& block, std::size_t firstCell, LightField& field)
+void LoadSmoke(const SmokeBlock& block, std::size_t firstCell, LightField& field)
 {
   const NeededArray direct(*block.Grid, block.Name, "DirectFluence", field.Bands);
   const NeededArray multiple(*block.Grid, block.Name, "MultipleFluence", field.Bands * Batches);
@@ -182,7 +181,7 @@ void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands)
   std::vector<float>().swap(field.DirectFluence);
   std::vector<Lanes>().swap(field.MultipleFluence);
   std::size_t patch = 0;
-  for (const auto* const group : { &blocks.Surfaces, &blocks.Emitters })
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
   {
     for (const SurfaceBlock& block : *group)
     {
@@ -203,7 +202,7 @@ LightField LoadLightField(const SceneBlocks& blocks, int bands)
   {
     field.Cells += block.Grid->GetNumberOfCells();
   }
-  for (const auto* const group : { &blocks.Surfaces, &blocks.Emitters })
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
   {
     for (const SurfaceBlock& block : *group)
     {
@@ -221,7 +220,7 @@ LightField LoadLightField(const SceneBlocks& blocks, int bands)
     cell += block.Grid->GetNumberOfCells();
   }
   std::size_t patch = 0;
-  for (const auto* const group : { &blocks.Surfaces, &blocks.Emitters })
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
   {
     for (const SurfaceBlock& block : *group)
     {

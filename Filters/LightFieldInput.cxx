@@ -86,6 +86,7 @@ void LightFieldInput::Load(vtkDataObject* input)
   {
     options.ExtinctionScale[band] = NeededNumber(input, "ExtinctionScale", band);
   }
+  this->Bands_ = options.Bands;
   SceneDescription description = BuildScene(blocks, options);
   if (BandsAreEqual(description))
   {

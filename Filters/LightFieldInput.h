@@ -1,5 +1,5 @@
-// The light field that a view filter gets as input, made ready for views and kept while it stays the
-// same.
+// The light field that a view filter gets as input, made ready for views and kept while it stays
+// the same.
 #pragma once
 
 #include "View.h"
@@ -7,9 +7,11 @@
 #include <vtkDataObject.h>
 #include <vtkWeakPointer.h>
 
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace smokevis
 {
@@ -18,10 +20,12 @@ namespace smokevis
 class LightFieldInput
 {
 public:
-  /// The view of a light field; built anew only where the input changed. Throws Error where the input
-  /// is not the output of SmokeLightField.
+  /// The view of a light field; built anew only where the input changed. Throws Error where the
+  /// input is not the output of SmokeLightField.
   const View& Get(vtkDataObject* input);
 
+  /// Bands that the last input was made with; the view has fewer where they came out equal.
+  int Bands() const { return this->Bands_; }
   /// What a sign of the last input is called.
   std::string SignName(int id) const;
   /// The ids of the signs of the last input, for messages.
@@ -32,18 +36,18 @@ private:
 
   vtkWeakPointer<vtkDataObject> Input_;
   vtkMTimeType InputTime_ = 0;
+  int Bands_ = 1;
   std::map<int, std::string> SignNames_;
   std::unique_ptr<const View> View_;
 };
 
-/// A number of field data of a light field, in the collection's own field data or, where a file format
-/// dropped those, in those of a block. Returns false where there is none.
+/// A number of field data of a light field, in the collection's own field data or, where a file
+/// format dropped those, in those of a block. Returns false where there is none.
 bool FieldNumber(vtkDataObject* lightField, const char* name, int component, double& value);
 
-/// Wraps a number, or a list of them, or of texts, as an array of field data.
+/// Adds numbers, or texts, as an array of field data.
 void AddFieldNumber(vtkDataObject& target, const char* name, std::initializer_list<double> values);
-void AddFieldTexts(
-  vtkDataObject& target, const char* name, const std::vector<std::string>& texts);
+void AddFieldTexts(vtkDataObject& target, const char* name, const std::vector<std::string>& texts);
 /// Adds WorkReportWhat, WorkReportCount and WorkReportWhy.
 void AddWorkReport(vtkDataObject& target, const std::vector<WorkItem>& report);
 

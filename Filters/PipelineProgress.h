@@ -5,6 +5,8 @@
 
 #include <vtkAlgorithm.h>
 
+#include <chrono>
+
 namespace smokevis
 {
 
@@ -15,14 +17,19 @@ class PipelineProgress : public Progress
 public:
   /// @param begin,end the algorithm's progress when the work begins and ends
   explicit PipelineProgress(vtkAlgorithm* algorithm, double begin = 0.0, double end = 1.0)
-    : Algorithm_(algorithm)
-    , Begin_(begin)
-    , End_(end)
+      : Algorithm_(algorithm), Begin_(begin), End_(end)
   {
   }
 
   void Report(double fraction) override
   {
+    // Drawing a progress bar takes longer than the smallest pieces of work.
+    const auto now = std::chrono::steady_clock::now();
+    if (now - this->Last_ < std::chrono::milliseconds(50))
+    {
+      return;
+    }
+    this->Last_ = now;
     this->Algorithm_->UpdateProgress(this->Begin_ + fraction * (this->End_ - this->Begin_));
     if (this->Algorithm_->CheckAbort())
     {
@@ -34,6 +41,7 @@ private:
   vtkAlgorithm* Algorithm_;
   double Begin_;
   double End_;
+  std::chrono::steady_clock::time_point Last_;
 };
 
 } // namespace smokevis

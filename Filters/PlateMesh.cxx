@@ -64,7 +64,7 @@ PlateFrame PlateFrame::Make(
   frame.Centre = centre;
   frame.Normal = normal / normalLength;
   Vec3 right(0.0);
-  for (const Vec3& candidate : { up / upLength, Vec3(0.0, 1.0, 0.0), Vec3(1.0, 0.0, 0.0) })
+  for (const Vec3& candidate : {up / upLength, Vec3(0.0, 1.0, 0.0), Vec3(1.0, 0.0, 0.0)})
   {
     right = glm::cross(candidate, frame.Normal);
     if (glm::length(right) > 1e-6)
@@ -104,10 +104,10 @@ void PlateMesh::Add(const Plate& plate, const std::vector<double>& u, const std:
     {
       const std::int64_t corner =
         first + static_cast<std::int64_t>(i) + stride * static_cast<std::int64_t>(j);
-      this->Cells_.push_back({ { corner, corner + 1, corner + stride + 1, corner + stride },
-        luminance(given(u, 0.5 * (columns[i] + columns[i + 1])),
-          given(v, 0.5 * (rows[j] + rows[j + 1]))),
-        this->Plates_.size() });
+      this->Cells_.push_back({{corner, corner + 1, corner + stride + 1, corner + stride},
+        luminance(
+          given(u, 0.5 * (columns[i] + columns[i + 1])), given(v, 0.5 * (rows[j] + rows[j + 1]))),
+        this->Plates_.size()});
     }
   }
   this->Plates_.push_back(plate);
@@ -127,9 +127,7 @@ vtkSmartPointer<vtkPolyData> PlateMesh::Finish() const
   const auto cells = static_cast<vtkIdType>(this->Cells_.size());
   const bool coloured = std::any_of(this->Cells_.begin(), this->Cells_.end(),
     [](const Cell& cell)
-    {
-      return cell.Luminance[0] != cell.Luminance[1] || cell.Luminance[0] != cell.Luminance[2];
-    });
+    { return cell.Luminance[0] != cell.Luminance[1] || cell.Luminance[0] != cell.Luminance[2]; });
   const bool named = std::any_of(this->Plates_.begin(), this->Plates_.end(),
     [](const Plate& plate) { return !plate.Name.empty(); });
 
@@ -152,8 +150,8 @@ vtkSmartPointer<vtkPolyData> PlateMesh::Finish() const
   {
     const Cell& cell = this->Cells_[i];
     const Plate& plate = this->Plates_[cell.Plate];
-    const vtkIdType corners[4] = { cell.Corners[0], cell.Corners[1], cell.Corners[2],
-      cell.Corners[3] };
+    const vtkIdType corners[4] = {
+      cell.Corners[0], cell.Corners[1], cell.Corners[2], cell.Corners[3]};
     polys->InsertNextCell(4, corners);
     luminance->SetTuple(i, cell.Luminance.data());
     signId->SetValue(i, plate.SignId);
@@ -190,20 +188,21 @@ Spectrum ColouredLuminance(double luminance, const double colour[3], const std::
   }
   if (!(luminance >= 0.0) || !std::isfinite(luminance))
   {
-    throw Error(name, "its luminance is negative or not finite", "Give a luminance in cd/m2, from 0");
+    throw Error(
+      name, "its luminance is negative or not finite", "Give a luminance in cd/m2, from 0");
   }
   if (colour[0] == colour[1] && colour[0] == colour[2] && colour[0] > 0.0)
   {
-    return { luminance, luminance, luminance };
+    return {luminance, luminance, luminance};
   }
   const double weight = PhotopicWeights[0] * colour[0] + PhotopicWeights[1] * colour[1] +
-    PhotopicWeights[2] * colour[2];
+                        PhotopicWeights[2] * colour[2];
   if (!(weight > 0.0))
   {
     throw Error(name, "its Color is black", "Set the luminance to 0 for an unlit plate");
   }
-  return { luminance * colour[0] / weight, luminance * colour[1] / weight,
-    luminance * colour[2] / weight };
+  return {
+    luminance * colour[0] / weight, luminance * colour[1] / weight, luminance * colour[2] / weight};
 }
 
 } // namespace smokevis

@@ -14,7 +14,8 @@ class vtkPolyData;
 namespace smokevis
 {
 
-/// Where a plate is and which way it looks. Right x Up = Normal; right and up as seen from the front.
+/// Where a plate is and which way it looks. Right x Up = Normal; right and up as seen from the
+/// front.
 struct PlateFrame
 {
   Vec3 Centre;
@@ -22,8 +23,8 @@ struct PlateFrame
   Vec3 Up;
   Vec3 Normal;
 
-  /// Throws Error for a normal or up vector of no length. Where up is parallel to the normal (a plate
-  /// that lies flat), y, or else x, takes its place.
+  /// Throws Error for a normal or up vector of no length. Where up is parallel to the normal (a
+  /// plate that lies flat), y, or else x, takes its place.
   /// @param name  the plate, for the error message
   static PlateFrame Make(
     const Vec3& centre, const Vec3& normal, const Vec3& up, const std::string& name);
@@ -65,8 +66,8 @@ private:
   std::vector<Plate> Plates_;
 };
 
-/// Band luminances of a linear RGB colour, scaled to a photometric luminance. Throws Error where the
-/// colour is black or has a component outside [0, 1].
+/// Band luminances of a linear RGB colour, scaled to a photometric luminance. Throws Error where
+/// the colour is black or has a component outside [0, 1].
 Spectrum ColouredLuminance(double luminance, const double colour[3], const std::string& name);
 
 } // namespace smokevis

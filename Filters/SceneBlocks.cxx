@@ -42,7 +42,8 @@ void ForEachLeaf(vtkDataObject* object, const std::string& name, const LeafVisit
   if (!tree)
   {
     throw Error("block '" + name + "'",
-      std::string("a ") + object->GetClassName() + " is neither a data set nor a collection of them",
+      std::string("a ") + object->GetClassName() +
+        " is neither a data set nor a collection of them",
       "Give grids or surfaces, or collections of them");
   }
   const unsigned int children = tree->GetNumberOfChildren();
@@ -51,9 +52,9 @@ void ForEachLeaf(vtkDataObject* object, const std::string& name, const LeafVisit
     vtkInformation* const meta = tree->GetChildMetaData(i);
     const bool named = meta && meta->Has(vtkCompositeDataSet::NAME());
     ForEachLeaf(tree->GetChild(i),
-      named          ? std::string(meta->Get(vtkCompositeDataSet::NAME()))
-        : children == 1 ? name
-                        : name + "[" + std::to_string(i) + "]",
+      named           ? std::string(meta->Get(vtkCompositeDataSet::NAME()))
+      : children == 1 ? name
+                      : name + "[" + std::to_string(i) + "]",
       visit);
   }
 }
@@ -87,8 +88,8 @@ void CheckGrid(vtkDataSet& grid, const std::string& name)
   }
   if (image)
   {
-    for (const double spacing : { image->GetSpacing()[0], image->GetSpacing()[1],
-           image->GetSpacing()[2] })
+    for (const double spacing :
+      {image->GetSpacing()[0], image->GetSpacing()[1], image->GetSpacing()[2]})
     {
       if (!(spacing > 0.0))
       {
@@ -157,7 +158,7 @@ std::vector<SmokeBlock> CollectSmoke(vtkDataObject* input, const std::string& na
         throw Error("smoke block '" + leafName + "'", "it has no array Extinction",
           "Give the extinction coefficient [1/m] at 633 nm, on cells or points, under that name");
       }
-      blocks.push_back({ leafName, grid });
+      blocks.push_back({leafName, grid});
     });
   return blocks;
 }
@@ -193,7 +194,7 @@ std::vector<SurfaceBlock> CollectSurfaces(vtkDataObject* input, const std::strin
         }
         mesh->ShallowCopy(surface->GetOutput());
       }
-      blocks.push_back({ leafName, mesh });
+      blocks.push_back({leafName, mesh});
     });
   return blocks;
 }
@@ -206,7 +207,7 @@ vtkDataObject* FindBlock(vtkDataObject* collection, const std::string& name)
   {
     vtkInformation* const meta = tree->GetChildMetaData(i);
     if (meta && meta->Has(vtkCompositeDataSet::NAME()) &&
-      name == meta->Get(vtkCompositeDataSet::NAME()))
+        name == meta->Get(vtkCompositeDataSet::NAME()))
     {
       return tree->GetChild(i);
     }

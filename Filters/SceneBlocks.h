@@ -36,9 +36,9 @@ struct SceneBlocks
   std::vector<SurfaceBlock> Emitters;
 };
 
-/// The smoke grids in a data object, shallow copies of the input. Extinction that is given at points
-/// is averaged to cells. Throws Error for anything that is not an axis-aligned 3-D grid with an
-/// Extinction. Empty blocks are left out.
+/// The smoke grids in a data object, shallow copies of the input. Extinction that is given at
+/// points is averaged to cells. Throws Error for anything that is not an axis-aligned 3-D grid with
+/// an Extinction. Empty blocks are left out.
 /// @param name what to call blocks that have no name of their own
 std::vector<SmokeBlock> CollectSmoke(vtkDataObject* input, const std::string& name);
 
@@ -49,8 +49,8 @@ std::vector<SurfaceBlock> CollectSurfaces(vtkDataObject* input, const std::strin
 /// Child of a collection by name, or null.
 vtkDataObject* FindBlock(vtkDataObject* collection, const std::string& name);
 
-/// A numeric cell array by name, or null. Throws Error where the array is not numeric or has a number
-/// of components other than 1 or (where allowed) 3.
+/// A numeric cell array by name, or null. Throws Error where the array is not numeric or has a
+/// number of components other than 1 or (where allowed) 3.
 vtkDataArray* CellArray(
   vtkDataSet& block, const std::string& blockName, const char* array, bool threeAllowed);
 

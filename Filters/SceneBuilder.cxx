@@ -24,13 +24,11 @@ class CheckedArray
 public:
   /// @param what   names the quantity and its unit in the remedy
   /// @param upper  largest value allowed
-  CheckedArray(vtkDataSet& block, const std::string& blockName, const char* array, bool threeAllowed,
-    double lower, double upper, const char* remedy)
-    : Values_(CellArray(block, blockName, array, threeAllowed))
-    , Where_("cell array " + std::string(array) + " of block '" + blockName + "'")
-    , Lower_(lower)
-    , Upper_(upper)
-    , Remedy_(remedy)
+  CheckedArray(vtkDataSet& block, const std::string& blockName, const char* array,
+    bool threeAllowed, double lower, double upper, const char* remedy)
+      : Values_(CellArray(block, blockName, array, threeAllowed)),
+        Where_("cell array " + std::string(array) + " of block '" + blockName + "'"), Lower_(lower),
+        Upper_(upper), Remedy_(remedy)
   {
   }
 
@@ -63,7 +61,7 @@ public:
     }
     else if (bands == 1)
     {
-      value = { Luminance(value, 3), 0.0, 0.0 };
+      value = {Luminance(value, 3), 0.0, 0.0};
     }
     return value;
   }
@@ -80,8 +78,8 @@ constexpr double Largest = std::numeric_limits<float>::max();
 
 CheckedArray Reflectance(const SurfaceBlock& block)
 {
-  return { *block.Mesh, block.Name, "Reflectance", true, 0.0, 1.0,
-    "Give a diffuse reflectance from 0 to 1" };
+  return {*block.Mesh, block.Name, "Reflectance", true, 0.0, 1.0,
+    "Give a diffuse reflectance from 0 to 1"};
 }
 
 std::vector<double> Nodes(vtkDataSet& grid, int axis)
@@ -98,9 +96,9 @@ std::vector<double> Nodes(vtkDataSet& grid, int axis)
     return nodes;
   }
   auto* const rectilinear = vtkRectilinearGrid::SafeDownCast(&grid);
-  vtkDataArray* const coordinates = axis == 0 ? rectilinear->GetXCoordinates()
-    : axis == 1                               ? rectilinear->GetYCoordinates()
-                                              : rectilinear->GetZCoordinates();
+  vtkDataArray* const coordinates = axis == 0   ? rectilinear->GetXCoordinates()
+                                    : axis == 1 ? rectilinear->GetYCoordinates()
+                                                : rectilinear->GetZCoordinates();
   for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
   {
     nodes.push_back(coordinates->GetComponent(i, 0));
@@ -119,8 +117,8 @@ SmokeGrid BuildGrid(const SmokeBlock& block)
   }
   const CheckedArray extinction(grid, block.Name, "Extinction", false, 0.0, Largest,
     "Extinction is a finite number of 1/m from 0; smoke in solid cells is 0");
-  const CheckedArray emitted(grid, block.Name, "EmittedLuminance", false, 0.0, Largest,
-    "Give a luminance in cd/m2 from 0");
+  const CheckedArray emitted(
+    grid, block.Name, "EmittedLuminance", false, 0.0, Largest, "Give a luminance in cd/m2 from 0");
   const vtkIdType cells = grid.GetNumberOfCells();
   result.Extinction.resize(cells);
   result.EmittedLuminance.resize(emitted ? cells : 0);
@@ -180,8 +178,7 @@ void AddSurface(const SurfaceBlock& block, int bands, SurfaceMesh& mesh)
       }
       for (const auto& triangle : TriangulatePolygon(points))
       {
-        mesh.Triangles.push_back(
-          { first + triangle[0], first + triangle[1], first + triangle[2] });
+        mesh.Triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
         mesh.TriangleCell.push_back(index);
       }
       mesh.CellReflectance.push_back(reflectance ? reflectance.Bands(cell, bands) : Spectrum{});
@@ -190,8 +187,8 @@ void AddSurface(const SurfaceBlock& block, int bands, SurfaceMesh& mesh)
 
 void AddEmitters(const SurfaceBlock& block, int bands, std::vector<EmitterCell>& emitters)
 {
-  const CheckedArray luminance(*block.Mesh, block.Name, "Luminance", true, 0.0, Largest,
-    "Give a luminance in cd/m2 from 0");
+  const CheckedArray luminance(
+    *block.Mesh, block.Name, "Luminance", true, 0.0, Largest, "Give a luminance in cd/m2 from 0");
   if (!luminance)
   {
     throw Error("emitter block '" + block.Name + "'", "it has no cell array Luminance",

@@ -24,9 +24,9 @@ struct SignPlate
   std::string Origin;
   int Id = 0;
   std::string Name;
-  Vec3 Centre{ 0.0 };
-  Vec3 Normal{ 1.0, 0.0, 0.0 };
-  Vec3 Up{ 0.0, 0.0, 1.0 };
+  Vec3 Centre{0.0};
+  Vec3 Normal{1.0, 0.0, 0.0};
+  Vec3 Up{0.0, 0.0, 1.0};
   /// [m]
   double Width = 0.6;
   double Height = 0.3;
@@ -38,7 +38,7 @@ struct SignPlate
   /// Photometric luminance of lit and unlit parts [cd/m2].
   double Luminance = 300.0;
   double UnlitLuminance = 0.0;
-  double Colour[3] = { 1.0, 1.0, 1.0 };
+  double Colour[3] = {1.0, 1.0, 1.0};
   double Reflectance = 0.0;
 };
 
@@ -60,9 +60,9 @@ struct Stencil
 void AddSign(const SignPlate& sign, PlateMesh& mesh);
 
 /// Reads a table of signs, a sign a row; what a row does not say comes from `defaults`. The header
-/// line names the columns, in any order: cx, cy, cz (needed), id, name, nx, ny, nz, ux, uy, uz, width,
-/// height, pattern (Square, Barcode, Image), bars, luminance. Blank lines and lines that begin with #
-/// are left out. Throws Error with the number of the line at fault.
+/// line names the columns, in any order: cx, cy, cz (needed), id, name, nx, ny, nz, ux, uy, uz,
+/// width, height, pattern (Square, Barcode, Image), bars, luminance. Blank lines and lines that
+/// begin with # are left out. Throws Error with the number of the line at fault.
 std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlate& defaults);
 
 } // namespace smokevis

@@ -19,8 +19,8 @@ namespace smokevis
 namespace
 {
 
-const std::vector<std::string> Columns = { "id", "name", "cx", "cy", "cz", "nx", "ny", "nz", "ux",
-  "uy", "uz", "width", "height", "pattern", "bars", "luminance" };
+const std::vector<std::string> Columns = {"id", "name", "cx", "cy", "cz", "nx", "ny", "nz", "ux",
+  "uy", "uz", "width", "height", "pattern", "bars", "luminance"};
 
 /// Header of the column that catches fields beyond the last column.
 const std::string Surplus = "#";
@@ -29,9 +29,8 @@ std::string Trim(const std::string& text)
 {
   const char* const blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos
-    ? std::string()
-    : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return first == std::string::npos ? std::string()
+                                    : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::string Lower(std::string text)
@@ -80,9 +79,7 @@ class Row
 {
 public:
   Row(const std::map<std::string, vtkStringArray*>& columns, vtkIdType row, std::string where)
-    : Columns_(columns)
-    , Row_(row)
-    , Where_(std::move(where))
+      : Columns_(columns), Row_(row), Where_(std::move(where))
   {
   }
 
@@ -90,7 +87,8 @@ public:
   std::string Text(const std::string& column) const
   {
     const auto found = this->Columns_.find(column);
-    return found == this->Columns_.end() ? std::string() : Trim(found->second->GetValue(this->Row_));
+    return found == this->Columns_.end() ? std::string()
+                                         : Trim(found->second->GetValue(this->Row_));
   }
 
   template <class Number> Number Get(const std::string& column, Number otherwise) const
@@ -111,7 +109,8 @@ public:
     if (!good)
     {
       throw Error(this->Where_, "column " + column + " holds '" + text + "', which is not a number",
-        std::is_integral_v<Number> ? "Write a whole number" : "Write a number with a decimal point");
+        std::is_integral_v<Number> ? "Write a whole number"
+                                   : "Write a number with a decimal point");
     }
     return value;
   }
@@ -120,7 +119,8 @@ public:
   {
     if (this->Text(column).empty())
     {
-      throw Error(this->Where_, "column " + column + " is blank", "Give the sign's centre in metres");
+      throw Error(
+        this->Where_, "column " + column + " is blank", "Give the sign's centre in metres");
     }
     return this->Get(column, 0.0);
   }
@@ -132,16 +132,16 @@ public:
     {
       return otherwise;
     }
-    for (const auto& [name, pattern] : { std::pair("square", SignPattern::Square),
-           std::pair("barcode", SignPattern::Barcode), std::pair("image", SignPattern::Image) })
+    for (const auto& [name, pattern] : {std::pair("square", SignPattern::Square),
+           std::pair("barcode", SignPattern::Barcode), std::pair("image", SignPattern::Image)})
     {
       if (text == name)
       {
         return pattern;
       }
     }
-    throw Error(this->Where_, "the pattern '" + text + "' is not known",
-      "Write Square, Barcode or Image");
+    throw Error(
+      this->Where_, "the pattern '" + text + "' is not known", "Write Square, Barcode or Image");
   }
 
 private:
@@ -155,11 +155,11 @@ SignPlate ReadSign(const Row& row, const SignPlate& defaults)
   SignPlate sign = defaults;
   sign.Id = row.Get("id", defaults.Id);
   sign.Name = row.Text("name");
-  sign.Centre = { row.Needed("cx"), row.Needed("cy"), row.Needed("cz") };
-  sign.Normal = { row.Get("nx", defaults.Normal.x), row.Get("ny", defaults.Normal.y),
-    row.Get("nz", defaults.Normal.z) };
-  sign.Up = { row.Get("ux", defaults.Up.x), row.Get("uy", defaults.Up.y),
-    row.Get("uz", defaults.Up.z) };
+  sign.Centre = {row.Needed("cx"), row.Needed("cy"), row.Needed("cz")};
+  sign.Normal = {row.Get("nx", defaults.Normal.x), row.Get("ny", defaults.Normal.y),
+    row.Get("nz", defaults.Normal.z)};
+  sign.Up = {
+    row.Get("ux", defaults.Up.x), row.Get("uy", defaults.Up.y), row.Get("uz", defaults.Up.z)};
   sign.Width = row.Get("width", defaults.Width);
   sign.Height = row.Get("height", defaults.Height);
   sign.Pattern = row.Pattern(defaults.Pattern);
@@ -206,12 +206,13 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
     {
       throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
         "the column '" + name + "' is not known",
-        "The columns are id, name, cx, cy, cz, nx, ny, nz, ux, uy, uz, width, height, pattern, bars, "
+        "The columns are id, name, cx, cy, cz, nx, ny, nz, ux, uy, uz, width, height, pattern, "
+        "bars, "
         "luminance");
     }
     columns[name] = column;
   }
-  for (const char* const needed : { "cx", "cy", "cz" })
+  for (const char* const needed : {"cx", "cy", "cz"})
   {
     if (columns.count(needed) == 0)
     {

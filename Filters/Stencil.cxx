@@ -26,11 +26,11 @@ double White(vtkDataArray& pixels)
 {
   switch (pixels.GetDataType())
   {
-    case VTK_FLOAT:
-    case VTK_DOUBLE:
-      return 1.0;
-    default:
-      return pixels.GetDataTypeMax();
+  case VTK_FLOAT:
+  case VTK_DOUBLE:
+    return 1.0;
+  default:
+    return pixels.GetDataTypeMax();
   }
 }
 
@@ -90,8 +90,8 @@ Stencil Stencil::Read(const std::string& fileName)
   const bool coloured = pixels->GetNumberOfComponents() >= 3;
   for (vtkIdType i = 0; i < width * height; ++i)
   {
-    const Spectrum value = { pixels->GetComponent(i, 0), coloured ? pixels->GetComponent(i, 1) : 0.0,
-      coloured ? pixels->GetComponent(i, 2) : 0.0 };
+    const Spectrum value = {pixels->GetComponent(i, 0), coloured ? pixels->GetComponent(i, 1) : 0.0,
+      coloured ? pixels->GetComponent(i, 2) : 0.0};
     const double grey = Luminance(value, coloured ? 3 : 1) / white;
     stencil.Grey[i] = std::isfinite(grey) ? std::clamp(grey, 0.0, 1.0) : 0.0;
   }

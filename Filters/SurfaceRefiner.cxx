@@ -22,7 +22,8 @@ namespace smokevis
 namespace
 {
 
-/// Vector area of a polygon (Newell), relative to its first corner for accuracy far from the origin.
+/// Vector area of a polygon (Newell), relative to its first corner for accuracy far from the
+/// origin.
 Vec3 VectorArea(const std::vector<Vec3>& corners)
 {
   Vec3 area(0.0);
@@ -50,7 +51,7 @@ bool PlaneAndConvex(const std::vector<Vec3>& corners)
     const Vec3 second = corners[(i + 2) % count] - corners[(i + 1) % count];
     const double turn = glm::dot(glm::cross(first, second), normal);
     if (turn < -1e-9 * size ||
-      std::abs(glm::dot(corners[i] - corners[0], normal)) > 1e-3 * std::sqrt(size))
+        std::abs(glm::dot(corners[i] - corners[0], normal)) > 1e-3 * std::sqrt(size))
     {
       return false;
     }
@@ -63,8 +64,7 @@ class Refiner
 {
 public:
   Refiner(vtkPolyData* input, const std::string& name, double patchSize)
-    : Name_(name)
-    , PatchSize_(patchSize)
+      : Name_(name), PatchSize_(patchSize)
   {
     const vtkIdType count = input->GetNumberOfPoints();
     this->Points_->SetDataTypeToDouble();
@@ -123,11 +123,11 @@ public:
       std::vector<std::array<double, 3>> points;
       for (const Vec3& corner : corners)
       {
-        points.push_back({ corner.x, corner.y, corner.z });
+        points.push_back({corner.x, corner.y, corner.z});
       }
       for (const auto& triangle : TriangulatePolygon(points))
       {
-        this->CutTriangle({ ids[triangle[0]], ids[triangle[1]], ids[triangle[2]] });
+        this->CutTriangle({ids[triangle[0]], ids[triangle[1]], ids[triangle[2]]});
       }
     }
   }
@@ -177,13 +177,11 @@ private:
   void CutQuad(const std::vector<Vec3>& corners)
   {
     const auto pieces = [&](double first, double second)
-    {
-      return std::max(1.0, std::ceil(std::max(first, second) / this->PatchSize_ * (1.0 - 1e-9)));
-    };
-    const double columns = pieces(
-      glm::distance(corners[0], corners[1]), glm::distance(corners[3], corners[2]));
-    const double rows = pieces(
-      glm::distance(corners[0], corners[3]), glm::distance(corners[1], corners[2]));
+    { return std::max(1.0, std::ceil(std::max(first, second) / this->PatchSize_ * (1.0 - 1e-9))); };
+    const double columns =
+      pieces(glm::distance(corners[0], corners[1]), glm::distance(corners[3], corners[2]));
+    const double rows =
+      pieces(glm::distance(corners[0], corners[3]), glm::distance(corners[1], corners[2]));
     this->CheckCount(columns * rows);
     const auto nu = static_cast<vtkIdType>(columns);
     const auto nv = static_cast<vtkIdType>(rows);
@@ -204,7 +202,7 @@ private:
       for (vtkIdType i = 0; i < nu; ++i)
       {
         const vtkIdType corner = first + i + (nu + 1) * j;
-        const vtkIdType ids[4] = { corner, corner + 1, corner + nu + 2, corner + nu + 1 };
+        const vtkIdType ids[4] = {corner, corner + 1, corner + nu + 2, corner + nu + 1};
         this->Put(ids, 4);
       }
     }
@@ -213,13 +211,13 @@ private:
   /// Halves a triangle across its longest edge until no edge is too long.
   void CutTriangle(const std::array<vtkIdType, 3>& triangle)
   {
-    std::vector<std::array<vtkIdType, 3>> open = { triangle };
+    std::vector<std::array<vtkIdType, 3>> open = {triangle};
     while (!open.empty())
     {
       const std::array<vtkIdType, 3> ids = open.back();
       open.pop_back();
-      const std::array<Vec3, 3> corners = { this->Point(ids[0]), this->Point(ids[1]),
-        this->Point(ids[2]) };
+      const std::array<Vec3, 3> corners = {
+        this->Point(ids[0]), this->Point(ids[1]), this->Point(ids[2])};
       int edge = 0;
       double longest = 0.0;
       for (int i = 0; i < 3; ++i)
@@ -239,8 +237,8 @@ private:
       this->CheckCount(static_cast<double>(open.size()) + longest / this->PatchSize_);
       const Vec3 middle = 0.5 * (corners[edge] + corners[(edge + 1) % 3]);
       const vtkIdType id = this->Points_->InsertNextPoint(&middle.x);
-      open.push_back({ id, ids[(edge + 1) % 3], ids[(edge + 2) % 3] });
-      open.push_back({ ids[edge], id, ids[(edge + 2) % 3] });
+      open.push_back({id, ids[(edge + 1) % 3], ids[(edge + 2) % 3]});
+      open.push_back({ids[edge], id, ids[(edge + 2) % 3]});
     }
   }
 
@@ -281,15 +279,15 @@ std::vector<std::array<int, 3>> TriangulatePolygon(const std::vector<std::array<
     {
       for (vtkIdType i = 0; i + 2 < ids->GetNumberOfIds(); i += 3)
       {
-        triangles.push_back({ static_cast<int>(ids->GetId(i)), static_cast<int>(ids->GetId(i + 1)),
-          static_cast<int>(ids->GetId(i + 2)) });
+        triangles.push_back({static_cast<int>(ids->GetId(i)), static_cast<int>(ids->GetId(i + 1)),
+          static_cast<int>(ids->GetId(i + 2))});
       }
       return triangles;
     }
   }
   for (int i = 1; i + 1 < count; ++i)
   {
-    triangles.push_back({ 0, i, i + 1 });
+    triangles.push_back({0, i, i + 1});
   }
   return triangles;
 }

@@ -32,9 +32,9 @@ int vtkExitSignSource::RequestData(
   {
     smokevis::SignPlate sign;
     sign.Id = this->SignId;
-    sign.Centre = { this->Center[0], this->Center[1], this->Center[2] };
-    sign.Normal = { this->Normal[0], this->Normal[1], this->Normal[2] };
-    sign.Up = { this->Up[0], this->Up[1], this->Up[2] };
+    sign.Centre = {this->Center[0], this->Center[1], this->Center[2]};
+    sign.Normal = {this->Normal[0], this->Normal[1], this->Normal[2]};
+    sign.Up = {this->Up[0], this->Up[1], this->Up[2]};
     sign.Width = this->Width;
     sign.Height = this->Height;
     sign.Pattern = static_cast<smokevis::SignPattern>(this->Pattern);
@@ -74,9 +74,7 @@ void vtkExitSignSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto vector = [&](const char* name, const double* value)
-  {
-    os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n";
-  };
+  { os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n"; };
   vector("Center", this->Center);
   vector("Normal", this->Normal);
   vector("Up", this->Up);

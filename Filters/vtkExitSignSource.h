@@ -2,11 +2,11 @@
  * @class   vtkExitSignSource
  * @brief   plates of exit signs
  *
- * Makes one exit sign, or as many as a table holds, as plane plates that are cut into quads. The front
- * of a plate is the right-hand side of its quads. Cell arrays of the output:
+ * Makes one exit sign, or as many as a table holds, as plane plates that are cut into quads. The
+ * front of a plate is the right-hand side of its quads. Cell arrays of the output:
  *
- * - `Luminance`, double, 1 or 3 components: emitted luminance of the front [cd/m2]; three components
- *   (linear red, green, blue) where the colour is not white;
+ * - `Luminance`, double, 1 or 3 components: emitted luminance of the front [cd/m2]; three
+ * components (linear red, green, blue) where the colour is not white;
  * - `SignId`, int: the same for all cells of a sign, lit and unlit;
  * - `Reflectance`, double: diffuse reflectance, both sides;
  * - `SignName`, string: the name from the table, else "Sign <id>".
@@ -16,8 +16,8 @@
  * @par Sign table
  * A CSV file whose first line names the columns, in any order: `cx`, `cy`, `cz` (the centre [m],
  * needed), `id`, `name`, `nx`, `ny`, `nz` (normal), `ux`, `uy`, `uz` (up), `width`, `height` [m],
- * `pattern` (Square, Barcode or Image), `bars`, `luminance` [cd/m2]. What a column or field does not
- * say comes from the properties of this source; ids then count on from SignId.
+ * `pattern` (Square, Barcode or Image), `bars`, `luminance` [cd/m2]. What a column or field does
+ * not say comes from the properties of this source; ids then count on from SignId.
  */
 #ifndef vtkExitSignSource_h
 #define vtkExitSignSource_h
@@ -57,8 +57,8 @@ public:
 
   ///@{
   /**
-   * Direction that is up on the plate; its part along the normal does not matter. Where it is parallel
-   * to the normal, y (or else x) takes its place. Default: (0, 0, 1).
+   * Direction that is up on the plate; its part along the normal does not matter. Where it is
+   * parallel to the normal, y (or else x) takes its place. Default: (0, 0, 1).
    */
   vtkSetVector3Macro(Up, double);
   vtkGetVector3Macro(Up, double);
@@ -82,8 +82,8 @@ public:
 
   ///@{
   /**
-   * What is lit on the plate: SQUARE, one square in its middle; BARCODE, every second of a number of
-   * upright bars; IMAGE, the grey levels of an image file. Default: BARCODE.
+   * What is lit on the plate: SQUARE, one square in its middle; BARCODE, every second of a number
+   * of upright bars; IMAGE, the grey levels of an image file. Default: BARCODE.
    */
   vtkSetClampMacro(Pattern, int, SQUARE, IMAGE);
   vtkGetMacro(Pattern, int);
@@ -91,7 +91,8 @@ public:
 
   ///@{
   /**
-   * Number of bars of the barcode, 1 to 9999; the first, third, ... are lit. Default: 9, 5 of them lit.
+   * Number of bars of the barcode, 1 to 9999; the first, third, ... are lit. Default: 9, 5 of them
+   * lit.
    */
   vtkSetMacro(Bars, int);
   vtkGetMacro(Bars, int);
@@ -107,9 +108,9 @@ public:
 
   ///@{
   /**
-   * Image file of the pattern IMAGE, for example a PNG, with at most 250000 pixels. Each pixel becomes
-   * a cell; its grey level, taken as linear, leads from UnlitLuminance (black) to Luminance (white).
-   * Default: none.
+   * Image file of the pattern IMAGE, for example a PNG, with at most 250000 pixels. Each pixel
+   * becomes a cell; its grey level, taken as linear, leads from UnlitLuminance (black) to Luminance
+   * (white). Default: none.
    */
   vtkSetFilePathMacro(PatternFile);
   vtkGetFilePathMacro(PatternFile);
@@ -133,8 +134,8 @@ public:
 
   ///@{
   /**
-   * Colour of the light, linear red, green and blue from 0 to 1. Only the ratios count: the bands are
-   * scaled so that 0.2126 R + 0.7152 G + 0.0722 B is the luminance. Default: white, (1, 1, 1).
+   * Colour of the light, linear red, green and blue from 0 to 1. Only the ratios count: the bands
+   * are scaled so that 0.2126 R + 0.7152 G + 0.0722 B is the luminance. Default: white, (1, 1, 1).
    */
   vtkSetVector3Macro(Color, double);
   vtkGetVector3Macro(Color, double);
@@ -150,8 +151,8 @@ public:
 
   ///@{
   /**
-   * Number that tells the sign from others, from 0; with a table, the number of its first row unless
-   * the table says otherwise. Default: 0.
+   * Number that tells the sign from others, from 0; with a table, the number of its first row
+   * unless the table says otherwise. Default: 0.
    */
   vtkSetMacro(SignId, int);
   vtkGetMacro(SignId, int);
@@ -175,9 +176,9 @@ private:
   vtkExitSignSource(const vtkExitSignSource&) = delete;
   void operator=(const vtkExitSignSource&) = delete;
 
-  double Center[3] = { 0.0, 0.0, 0.0 };
-  double Normal[3] = { 1.0, 0.0, 0.0 };
-  double Up[3] = { 0.0, 0.0, 1.0 };
+  double Center[3] = {0.0, 0.0, 0.0};
+  double Normal[3] = {1.0, 0.0, 0.0};
+  double Up[3] = {0.0, 0.0, 1.0};
   double Width = 0.6;
   double Height = 0.3;
   int Pattern = BARCODE;
@@ -186,7 +187,7 @@ private:
   char* PatternFile = nullptr;
   double Luminance = 300.0;
   double UnlitLuminance = 0.0;
-  double Color[3] = { 1.0, 1.0, 1.0 };
+  double Color[3] = {1.0, 1.0, 1.0};
   double Reflectance = 0.0;
   int SignId = 0;
   char* SignTable = nullptr;

@@ -49,7 +49,7 @@ int vtkLuminaireSource::RequestData(
       throw smokevis::Error(
         "lamp", "its reflectance is outside 0 to 1", "Give a diffuse reflectance");
     }
-    const double size[2] = { this->Width, this->Height };
+    const double size[2] = {this->Width, this->Height};
     for (int axis = 0; axis < 2; ++axis)
     {
       if (this->Count[axis] < 1 || this->Count[axis] > MaximumCount)
@@ -58,7 +58,7 @@ int vtkLuminaireSource::RequestData(
           "lamps", "a Count is outside 1 to 10000", "Give the lamps along both axes of the grid");
       }
       if (this->Count[axis] > 1 &&
-        !(this->Spacing[axis] >= size[axis] && std::isfinite(this->Spacing[axis])))
+          !(this->Spacing[axis] >= size[axis] && std::isfinite(this->Spacing[axis])))
       {
         throw smokevis::Error("lamps", "their Spacing is less than their size, so they overlap",
           "Give the distance between the lamps' centres in metres");
@@ -72,13 +72,14 @@ int vtkLuminaireSource::RequestData(
 
     // Lambert: a plane of luminance L and area A sends out pi L A.
     const double photometric = this->LuminousFlux > 0.0
-      ? this->LuminousFlux / (vtkMath::Pi() * this->Width * this->Height)
-      : this->Luminance;
+                                 ? this->LuminousFlux / (vtkMath::Pi() * this->Width * this->Height)
+                                 : this->Luminance;
     const smokevis::Spectrum luminance =
       smokevis::ColouredLuminance(photometric, this->Color, "lamp");
-    const auto grid = smokevis::PlateFrame::Make({ this->Center[0], this->Center[1], this->Center[2] },
-      { this->Normal[0], this->Normal[1], this->Normal[2] },
-      { this->Up[0], this->Up[1], this->Up[2] }, "lamp");
+    const auto grid =
+      smokevis::PlateFrame::Make({this->Center[0], this->Center[1], this->Center[2]},
+        {this->Normal[0], this->Normal[1], this->Normal[2]},
+        {this->Up[0], this->Up[1], this->Up[2]}, "lamp");
 
     smokevis::PlateMesh mesh;
     smokevis::PlateMesh::Plate lamp;
@@ -89,9 +90,9 @@ int vtkLuminaireSource::RequestData(
       {
         lamp.Frame = grid;
         lamp.Frame.Centre += (i - 0.5 * (this->Count[0] - 1)) * this->Spacing[0] * grid.Right +
-          (j - 0.5 * (this->Count[1] - 1)) * this->Spacing[1] * grid.Up;
-        mesh.Add(lamp, { -0.5 * this->Width, 0.5 * this->Width },
-          { -0.5 * this->Height, 0.5 * this->Height },
+                             (j - 0.5 * (this->Count[1] - 1)) * this->Spacing[1] * grid.Up;
+        mesh.Add(lamp, {-0.5 * this->Width, 0.5 * this->Width},
+          {-0.5 * this->Height, 0.5 * this->Height},
           [&](std::size_t, std::size_t) { return luminance; });
       }
     }
@@ -111,9 +112,7 @@ void vtkLuminaireSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const auto vector = [&](const char* name, const double* value)
-  {
-    os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n";
-  };
+  { os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n"; };
   vector("Center", this->Center);
   vector("Normal", this->Normal);
   vector("Up", this->Up);

@@ -3,8 +3,8 @@
  * @brief   plane lamps, one or a grid of them
  *
  * Makes rectangular lamps that shine evenly (Lambertian) from their front, the right-hand side of
- * their quads. The output has a quad a lamp, with the cell arrays `Luminance` [cd/m2], `SignId` (-1: a
- * lamp, not a sign) and `Reflectance`.
+ * their quads. The output has a quad a lamp, with the cell arrays `Luminance` [cd/m2], `SignId`
+ * (-1: a lamp, not a sign) and `Reflectance`.
  */
 #ifndef vtkLuminaireSource_h
 #define vtkLuminaireSource_h
@@ -37,8 +37,9 @@ public:
 
   ///@{
   /**
-   * Direction of the lamps' height and of the grid's second axis; its part along the normal does not
-   * matter. Where it is parallel to the normal, y (or else x) takes its place. Default: (0, 1, 0).
+   * Direction of the lamps' height and of the grid's second axis; its part along the normal does
+   * not matter. Where it is parallel to the normal, y (or else x) takes its place. Default: (0, 1,
+   * 0).
    */
   vtkSetVector3Macro(Up, double);
   vtkGetVector3Macro(Up, double);
@@ -62,7 +63,8 @@ public:
 
   ///@{
   /**
-   * Photometric luminance of the lamps [cd/m2], from 0; counts while LuminousFlux is 0. Default: 3000.
+   * Photometric luminance of the lamps [cd/m2], from 0; counts while LuminousFlux is 0. Default:
+   * 3000.
    */
   vtkSetMacro(Luminance, double);
   vtkGetMacro(Luminance, double);
@@ -79,8 +81,8 @@ public:
 
   ///@{
   /**
-   * Colour of the light, linear red, green and blue from 0 to 1. Only the ratios count: the bands are
-   * scaled so that 0.2126 R + 0.7152 G + 0.0722 B is the luminance. Default: white, (1, 1, 1).
+   * Colour of the light, linear red, green and blue from 0 to 1. Only the ratios count: the bands
+   * are scaled so that 0.2126 R + 0.7152 G + 0.0722 B is the luminance. Default: white, (1, 1, 1).
    */
   vtkSetVector3Macro(Color, double);
   vtkGetVector3Macro(Color, double);
@@ -122,17 +124,17 @@ private:
   vtkLuminaireSource(const vtkLuminaireSource&) = delete;
   void operator=(const vtkLuminaireSource&) = delete;
 
-  double Center[3] = { 0.0, 0.0, 0.0 };
-  double Normal[3] = { 0.0, 0.0, -1.0 };
-  double Up[3] = { 0.0, 1.0, 0.0 };
+  double Center[3] = {0.0, 0.0, 0.0};
+  double Normal[3] = {0.0, 0.0, -1.0};
+  double Up[3] = {0.0, 1.0, 0.0};
   double Width = 0.6;
   double Height = 0.6;
   double Luminance = 3000.0;
   double LuminousFlux = 0.0;
-  double Color[3] = { 1.0, 1.0, 1.0 };
+  double Color[3] = {1.0, 1.0, 1.0};
   double Reflectance = 0.0;
-  int Count[2] = { 1, 1 };
-  double Spacing[2] = { 3.0, 3.0 };
+  int Count[2] = {1, 1};
+  double Spacing[2] = {3.0, 3.0};
 };
 
 #endif
