@@ -6,7 +6,6 @@
 #include "Medium.h"
 #include "Types.h"
 
-#include <memory>
 #include <vector>
 
 namespace smokevis
@@ -49,18 +48,29 @@ public:
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
   std::size_t Patches() const { return this->PatchArea_.size(); }
   double PatchArea(std::size_t patch) const { return this->PatchArea_[patch]; }
-  const Spectrum& PatchReflectance(std::size_t patch) const;
+  const Spectrum& PatchReflectance(std::size_t patch) const { return this->PatchReflectance_[patch]; }
+  /// The patch that was hit.
+  std::size_t Patch(const Hit& hit) const
+  {
+    return this->Shapes_.Cell(hit) + (hit.Emitter ? this->SurfacePatches() : 0);
+  }
+  /// Triangles of surfaces and of emitters; a triangle's cell counts within its mesh.
+  const SurfaceMesh& Surfaces() const { return this->Description_.Surfaces; }
+  const SurfaceMesh& EmitterMesh() const { return this->EmitterMesh_; }
 
   /// The corner with the smallest and the one with the largest coordinates of all there is.
   const Vec3& Lower() const { return this->Lower_; }
   const Vec3& Upper() const { return this->Upper_; }
 
 private:
+  /// Without its grids and emitters, which move into Smoke_ and Lights_.
   SceneDescription Description_;
+  SurfaceMesh EmitterMesh_;
   Medium Smoke_;
   EmitterSet Lights_;
   Geometry Shapes_;
   std::vector<double> PatchArea_;
+  std::vector<Spectrum> PatchReflectance_;
   Vec3 Lower_{ 0.0 };
   Vec3 Upper_{ 0.0 };
 };

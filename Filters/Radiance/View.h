@@ -64,6 +64,11 @@ public:
 
 private:
   struct Implementation;
+
+  /// Luminance that a side of a patch reflects at a point, and its batches of multiply scattered light.
+  double Reflected(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
+    Lanes& lanes) const;
+
   std::shared_ptr<const Scene> Scene_;
   std::shared_ptr<const LightField> Field_;
   std::unique_ptr<Implementation> Implementation_;

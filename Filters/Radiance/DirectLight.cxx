@@ -1,0 +1,416 @@
+#include "DirectLight.h"
+
+#include "PolygonLight.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// A group of radius r at a distance d acts as one point below this r/d: the error is of the order
+/// (r/d)^2. A leaf has a closed form, so it turns into a point only where that costs digits no more.
+constexpr double PointRatio = 1.0 / 32.0;
+constexpr double LeafPointRatio = 1.0 / 128.0;
+/// One way stands for all ways to a group below this r/d.
+constexpr double PathRatio = 0.35;
+/// A leaf is split in four above this r/d, where three Gauss points an edge do not follow its
+/// transmittance any more.
+constexpr double LeafRatio = 0.7;
+constexpr int LeafSplits = 4;
+/// A box or triangle as large as this share of its distance to the light is split.
+constexpr double BoxRatio = 0.5;
+constexpr int BoxSplits = 3;
+constexpr double TriangleRatio = 0.5;
+constexpr double TrianglePointRatio = 0.1;
+constexpr int TriangleSplits = 3;
+
+/// Gauss-Legendre nodes and weights on (0, 1).
+constexpr std::array<double, 2> Nodes2 = { 0.21132486540518712, 0.78867513459481288 };
+constexpr std::array<double, 3> Nodes3 = { 0.11270166537925831, 0.5, 0.88729833462074169 };
+constexpr std::array<double, 3> Weights3 = { 5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0 };
+
+Vec3 Bilinear(const std::array<Vec3, 4>& corners, double u, double v)
+{
+  return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
+    v * ((1.0 - u) * corners[3] + u * corners[2]);
+}
+
+/// Area per unit of u and v there.
+double BilinearArea(const std::array<Vec3, 4>& corners, double u, double v)
+{
+  const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
+  const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
+  return glm::length(glm::cross(du, dv));
+}
+
+LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
+{
+  LightGroup part = leaf;
+  part.Corners = { Bilinear(leaf.Corners, u0, v0), Bilinear(leaf.Corners, u1, v0),
+    Bilinear(leaf.Corners, u1, v1), Bilinear(leaf.Corners, u0, v1) };
+  part.Centre = Bilinear(leaf.Corners, 0.5 * (u0 + u1), 0.5 * (v0 + v1));
+  part.Radius = 0.0;
+  for (const Vec3& corner : part.Corners)
+  {
+    part.Radius = std::max(part.Radius, glm::length(corner - part.Centre));
+  }
+  part.Area = 0.5 * glm::length(glm::cross(
+                      part.Corners[2] - part.Corners[0], part.Corners[3] - part.Corners[1]));
+  for (double& intensity : part.Intensity)
+  {
+    intensity *= part.Area / leaf.Area;
+  }
+  return part;
+}
+
+} // namespace
+
+DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Vec3& point) const
+{
+  const Geometry& shapes = this->Scene_.Shapes();
+  const Vec3 to = group.Centre - point;
+  const double distance = glm::length(to);
+  Path path{ 0.0, 1.0 };
+  if (!(distance > 0.0))
+  {
+    return path;
+  }
+  const double depth = this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
+  path.MeanExtinction = depth / distance;
+  // Light that is dimmed beyond single precision needs no shadows.
+  double least = this->Scene_.ExtinctionScale(0);
+  for (int band = 1; band < this->Scene_.Bands(); ++band)
+  {
+    least = std::min(least, this->Scene_.ExtinctionScale(band));
+  }
+  if (depth * least > 100.0)
+  {
+    path.Visible = 0.0;
+    return path;
+  }
+  if (group.Radius < 0.05 * distance)
+  {
+    path.Visible = shapes.Visible(point, group.Centre) ? 1.0 : 0.0;
+    return path;
+  }
+  int visible = 0;
+  int tried = 0;
+  const auto tryPoint = [&](const Vec3& target)
+  {
+    ++tried;
+    visible += shapes.Visible(point, target) ? 1 : 0;
+  };
+  if (group.FirstChild < 0)
+  {
+    for (const double u : { 0.25, 0.75 })
+    {
+      for (const double v : { 0.25, 0.75 })
+      {
+        tryPoint(Bilinear(group.Corners, u, v));
+      }
+    }
+  }
+  else
+  {
+    const auto& groups = this->Scene_.Lights().Groups();
+    for (int child = group.FirstChild; child < group.FirstChild + 2; ++child)
+    {
+      const int grandchild = groups[child].FirstChild;
+      if (grandchild < 0)
+      {
+        tryPoint(groups[child].Centre);
+        continue;
+      }
+      tryPoint(groups[grandchild].Centre);
+      tryPoint(groups[grandchild + 1].Centre);
+    }
+  }
+  path.Visible = static_cast<double>(visible) / tried;
+  return path;
+}
+
+void DirectLight::AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
+  Spectrum& sum) const
+{
+  const Vec3 to = group.Centre - receiver.Point;
+  const double square = glm::dot(to, to);
+  const double distance = std::sqrt(square);
+  const double cosine = -glm::dot(to, group.Normal) / distance;
+  if (cosine <= 0.0)
+  {
+    return;
+  }
+  double factor = path.Visible * cosine / square;
+  if (group.Exponent > 0.0)
+  {
+    factor *= std::pow(cosine, group.Exponent);
+  }
+  if (receiver.Normal)
+  {
+    factor *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
+  }
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    sum[band] += factor * group.Intensity[band] *
+      std::exp(-this->Scene_.ExtinctionScale(band) * path.MeanExtinction * distance);
+  }
+}
+
+void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, const Path& path,
+  Spectrum& sum) const
+{
+  const Vec3& point = receiver.Point;
+  const std::array<Vec3, 4>& corners = leaf.Corners;
+  const double closed = receiver.Normal
+    ? ProjectedSolidAngle(point, *receiver.Normal, corners)
+    : SolidAngle(point, corners[0], corners[1], corners[2]) +
+      SolidAngle(point, corners[0], corners[2], corners[3]);
+  // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
+  const bool few = leaf.Radius < 0.1 * glm::length(leaf.Centre - point);
+  const int order = few ? 2 : 3;
+  double weights = 0.0;
+  Spectrum weighted{};
+  for (int i = 0; i < order; ++i)
+  {
+    for (int j = 0; j < order; ++j)
+    {
+      const double u = few ? Nodes2[i] : Nodes3[i];
+      const double v = few ? Nodes2[j] : Nodes3[j];
+      const Vec3 to = Bilinear(corners, u, v) - point;
+      const double square = glm::dot(to, to);
+      const double distance = std::sqrt(square);
+      const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
+      double weight = BilinearArea(corners, u, v) * cosine / square *
+        (few ? 1.0 : Weights3[i] * Weights3[j]);
+      if (receiver.Normal)
+      {
+        weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
+      }
+      weights += weight;
+      if (leaf.Exponent > 0.0)
+      {
+        weight *= std::pow(cosine, leaf.Exponent);
+      }
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        weighted[band] += weight *
+          std::exp(-this->Scene_.ExtinctionScale(band) * path.MeanExtinction * distance);
+      }
+    }
+  }
+  if (!(weights > 0.0))
+  {
+    return;
+  }
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    sum[band] += path.Visible * leaf.Intensity[band] / leaf.Area * closed * weighted[band] / weights;
+  }
+}
+
+void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, const Path* path,
+  int splits, Spectrum& sum) const
+{
+  const Vec3 to = group.Centre - receiver.Point;
+  const double height = -glm::dot(to, group.Normal);
+  const bool leaf = group.FirstChild < 0;
+  if (height <= (leaf ? 0.0 : -group.Radius) ||
+    (receiver.Normal && glm::dot(to, *receiver.Normal) <= -group.Radius))
+  {
+    return;
+  }
+  const double ratio = group.Radius / glm::length(to);
+  Path own;
+  const bool last = leaf && splits == 0;
+  if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
+  {
+    own = this->SamplePath(group, receiver.Point);
+    path = &own;
+  }
+  if (path != nullptr && path->Visible == 0.0)
+  {
+    return;
+  }
+  if (ratio < (leaf ? LeafPointRatio : PointRatio))
+  {
+    this->AddPoint(group, receiver, *path, sum);
+  }
+  else if (leaf && (ratio < LeafRatio || last))
+  {
+    this->AddLeaf(group, receiver, *path, sum);
+  }
+  else if (leaf)
+  {
+    for (const double u : { 0.0, 0.5 })
+    {
+      for (const double v : { 0.0, 0.5 })
+      {
+        const LightGroup part = Part(group, u, u + 0.5, v, v + 0.5);
+        this->Gather(part, receiver, path, splits - 1, sum);
+      }
+    }
+  }
+  else
+  {
+    const auto& groups = this->Scene_.Lights().Groups();
+    this->Gather(groups[group.FirstChild], receiver, path, splits, sum);
+    this->Gather(groups[group.FirstChild + 1], receiver, path, splits, sum);
+  }
+}
+
+Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  Spectrum sum{};
+  this->Gather(
+    lights.Groups()[lights.Lights()[light]], { point, std::nullopt }, nullptr, LeafSplits, sum);
+  return sum;
+}
+
+Spectrum DirectLight::Illuminance(
+  std::size_t light, const Vec3& point, const Vec3& normal) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  Spectrum sum{};
+  this->Gather(
+    lights.Groups()[lights.Lights()[light]], { point, normal }, nullptr, LeafSplits, sum);
+  return sum;
+}
+
+Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  return this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), BoxSplits);
+}
+
+Spectrum DirectLight::BoxFluence(
+  std::size_t light, const Vec3& centre, const Vec3& size, int splits) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 from = centre - root.Centre;
+  const double toCentre = glm::length(from);
+  const double distance = std::max(0.0, toCentre - root.Radius);
+  const double edge = std::max({ size.x, size.y, size.z });
+  if (splits > 0 && edge > BoxRatio * distance)
+  {
+    // A box wholly behind the plate gets nothing.
+    if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
+    {
+      return {};
+    }
+    Spectrum sum{};
+    for (int part = 0; part < 8; ++part)
+    {
+      const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
+      const Spectrum value =
+        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += 0.125 * value[band];
+      }
+    }
+    return sum;
+  }
+  Spectrum value = this->Fluence(light, centre);
+  if (edge > BoxRatio * distance)
+  {
+    return value;
+  }
+  // Mean over the box from the value at its centre: second derivatives of cos exp(-K d) / d^2.
+  const double extinction = [&]
+  {
+    const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+    return cell < 0 ? 0.0 : static_cast<double>(this->Scene_.Smoke().Extinction(cell));
+  }();
+  const double inverse = 1.0 / toCentre;
+  const Vec3 along = from * inverse;
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    const double k = extinction * this->Scene_.ExtinctionScale(band);
+    const double first = -(k + 2.0 * inverse);
+    const double second = first * first + 2.0 * inverse * inverse;
+    double correction = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double parallel = along[axis] * along[axis];
+      correction += size[axis] * size[axis] / 24.0 *
+        (second * parallel + (first - inverse) * inverse * (1.0 - parallel));
+    }
+    // Through thick cells the expansion means nothing.
+    value[band] *= std::clamp(correction, 0.5, 2.0);
+  }
+  return value;
+}
+
+std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
+  std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const
+{
+  std::array<Spectrum, 2> sum{};
+  this->AddTriangle(light, corners, normal, TriangleSplits, 1.0, sum);
+  return sum;
+}
+
+void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners,
+  const Vec3& normal, int splits, double weight, std::array<Spectrum, 2>& sum) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+  double size = 0.0;
+  for (const Vec3& corner : corners)
+  {
+    size = std::max(size, glm::length(corner - centre));
+  }
+  const double distance = std::max(0.0, glm::length(centre - root.Centre) - root.Radius);
+  if (glm::dot(centre - root.Centre, root.Normal) + size < -root.Radius)
+  {
+    return;
+  }
+  if (splits > 0 && size > TriangleRatio * distance)
+  {
+    const std::array<Vec3, 3> middle = { 0.5 * (corners[0] + corners[1]),
+      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
+    const double quarter = 0.25 * weight;
+    this->AddTriangle(
+      light, { corners[0], middle[0], middle[2] }, normal, splits - 1, quarter, sum);
+    this->AddTriangle(
+      light, { middle[0], corners[1], middle[1] }, normal, splits - 1, quarter, sum);
+    this->AddTriangle(
+      light, { middle[2], middle[1], corners[2] }, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, middle, normal, splits - 1, quarter, sum);
+    return;
+  }
+  // Three points are exact for a quadratic (Strang and Fix).
+  std::array<Vec3, 3> points;
+  const int count = size < TrianglePointRatio * distance ? 1 : 3;
+  for (int i = 0; i < count; ++i)
+  {
+    points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
+    const double side = glm::dot(root.Centre - points[i], normal);
+    for (int face = 0; face < 2; ++face)
+    {
+      const double facing = face == 0 ? side : -side;
+      if (facing <= -root.Radius)
+      {
+        continue;
+      }
+      const Spectrum value = this->Illuminance(light, points[i], face == 0 ? normal : -normal);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[face][band] += weight / count * value[band];
+      }
+    }
+  }
+}
+
+} // namespace smokevis

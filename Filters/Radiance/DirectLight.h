@@ -1,0 +1,65 @@
+// Light that reaches points, smoke cells and surface patches straight from the emitters.
+#pragma once
+
+#include "Types.h"
+
+#include <optional>
+
+namespace smokevis
+{
+
+class Scene;
+struct LightGroup;
+
+/// Next-event estimation without noise: the solid angle of the emitter is exact, the transmittance is
+/// exact along lines to it, and both are refined where the emitter is close.
+class DirectLight
+{
+public:
+  explicit DirectLight(const Scene& scene)
+    : Scene_(scene)
+  {
+  }
+
+  /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
+  Spectrum Fluence(std::size_t light, const Vec3& point) const;
+  /// Illuminance at a point of a surface with a unit normal [lx].
+  Spectrum Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const;
+  /// Mean fluence over a smoke cell [lx].
+  Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
+  /// Mean illuminance of a triangle's front and back [lx].
+  std::array<Spectrum, 2> TriangleIlluminance(
+    std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
+
+private:
+  struct Receiver
+  {
+    Vec3 Point;
+    /// Of a surface; for smoke there is none.
+    std::optional<Vec3> Normal;
+  };
+  /// What the way to a light does to its light.
+  struct Path
+  {
+    /// Mean extinction coefficient along the way at 633 nm [1/m].
+    double MeanExtinction;
+    /// Share of the light that is not hidden.
+    double Visible;
+  };
+
+  Path SamplePath(const LightGroup& group, const Vec3& point) const;
+  void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
+    Spectrum& sum) const;
+  void AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
+    Spectrum& sum) const;
+  void AddLeaf(const LightGroup& leaf, const Receiver& receiver, const Path& path,
+    Spectrum& sum) const;
+  Spectrum BoxFluence(
+    std::size_t light, const Vec3& centre, const Vec3& size, int splits) const;
+  void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
+    int splits, double weight, std::array<Spectrum, 2>& sum) const;
+
+  const Scene& Scene_;
+};
+
+} // namespace smokevis

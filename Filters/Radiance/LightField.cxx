@@ -1,0 +1,413 @@
+#include "LightField.h"
+
+#include "DirectLight.h"
+#include "Errors.h"
+#include "LineSweep.h"
+#include "Sampler.h"
+#include "VeilProbes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Sweeps that let the orders of scattering build up: at least, and at most.
+constexpr int FewestSettling = 4;
+constexpr int MostSettling = 2000;
+/// Sweeps that are averaged: at least, and at most.
+constexpr int FewestCounted = 4;
+constexpr int MostCounted = 4096;
+/// Share of the tolerance that the standard error of the veil is brought down to, and share that the
+/// change from sweep to sweep is.
+constexpr double ErrorShare = 0.5;
+constexpr double SettledShare = 0.1;
+/// Shares of the progress bar.
+constexpr double DirectShare = 0.4;
+
+/// The work that one solve goes through, with what its steps share.
+class Solver
+{
+public:
+  Solver(const Scene& scene, const LightFieldOptions& options, Progress& progress)
+    : Scene_(scene)
+    , Options_(options)
+    , Progress_(progress)
+    , Direct_(scene)
+    , Arena_(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic)
+  {
+  }
+
+  LightField Run();
+
+private:
+  void SolveCells();
+  void SolvePatches();
+  void SolveMultiple(int band);
+  int Settle(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
+  void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool count);
+  bool BandsEqual(int a, int b) const;
+  void CheckStop() const
+  {
+    if (this->Progress_.ShouldStop())
+    {
+      throw Error("light field", "the work was stopped");
+    }
+  }
+  void Say(const std::string& what, double count, const std::string& why)
+  {
+    this->Field_.Report.push_back({ what, count, why });
+  }
+
+  /// Runs body(i) for all i below count, in steps between which progress is reported.
+  template <class Body>
+  void ForAll(std::size_t count, double from, double to, Body&& body);
+
+  const Scene& Scene_;
+  const LightFieldOptions& Options_;
+  Progress& Progress_;
+  DirectLight Direct_;
+  tbb::task_arena Arena_;
+  LightField Field_;
+};
+
+template <class Body>
+void Solver::ForAll(std::size_t count, double from, double to, Body&& body)
+{
+  constexpr std::size_t steps = 50;
+  const std::size_t chunk = std::max<std::size_t>(1, (count + steps - 1) / steps);
+  for (std::size_t begin = 0; begin < count; begin += chunk)
+  {
+    const std::size_t end = std::min(count, begin + chunk);
+    this->Arena_.execute(
+      [&]
+      {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 64),
+          [&](const tbb::blocked_range<std::size_t>& range)
+          {
+            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop(); ++i)
+            {
+              body(i);
+            }
+          });
+      });
+    this->Progress_.Report(from + (to - from) * static_cast<double>(end) / count);
+    this->CheckStop();
+  }
+}
+
+void Solver::SolveCells()
+{
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
+  this->ForAll(lights > 0 ? this->Field_.Cells : 0, 0.0, 0.8 * DirectShare,
+    [this, lights](std::size_t cell)
+    {
+      Spectrum sum{};
+      for (std::size_t light = 0; light < lights; ++light)
+      {
+        const Spectrum value = this->Direct_.CellFluence(light, static_cast<std::int64_t>(cell));
+        for (int band = 0; band < this->Field_.Bands; ++band)
+        {
+          sum[band] += value[band];
+        }
+      }
+      for (int band = 0; band < this->Field_.Bands; ++band)
+      {
+        this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
+          static_cast<float>(sum[band]);
+      }
+    });
+}
+
+void Solver::SolvePatches()
+{
+  // Triangles of each patch, surfaces first.
+  struct Triangle
+  {
+    std::array<Vec3, 3> Corners;
+    double Area;
+  };
+  std::vector<std::vector<Triangle>> patches(this->Field_.Patches);
+  std::size_t first = 0;
+  for (const SurfaceMesh* mesh : { &this->Scene_.Surfaces(), &this->Scene_.EmitterMesh() })
+  {
+    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+    {
+      Triangle triangle;
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        triangle.Corners[corner] = mesh->Points[mesh->Triangles[i][corner]];
+      }
+      triangle.Area = 0.5 *
+        glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
+          triangle.Corners[2] - triangle.Corners[0]));
+      if (triangle.Area > 0.0)
+      {
+        patches[first + mesh->TriangleCell[i]].push_back(triangle);
+      }
+    }
+    first += mesh->CellReflectance.size();
+  }
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
+  this->ForAll(lights > 0 ? this->Field_.Patches : 0, 0.8 * DirectShare, DirectShare,
+    [&](std::size_t patch)
+    {
+      std::array<Spectrum, 2> sum{};
+      for (const Triangle& triangle : patches[patch])
+      {
+        const Vec3 normal = glm::normalize(glm::cross(triangle.Corners[1] - triangle.Corners[0],
+          triangle.Corners[2] - triangle.Corners[0]));
+        const double share = triangle.Area / this->Scene_.PatchArea(patch);
+        for (std::size_t light = 0; light < lights; ++light)
+        {
+          const auto value = this->Direct_.TriangleIlluminance(light, triangle.Corners, normal);
+          for (int side = 0; side < 2; ++side)
+          {
+            for (int band = 0; band < this->Field_.Bands; ++band)
+            {
+              sum[side][band] += share * value[side][band];
+            }
+          }
+        }
+      }
+      for (int side = 0; side < 2; ++side)
+      {
+        for (int band = 0; band < this->Field_.Bands; ++band)
+        {
+          this->Field_.DirectIlluminance[this->Field_.PatchIndex(band, patch, side)] =
+            static_cast<float>(sum[side][band]);
+        }
+      }
+    });
+}
+
+void Solver::Sweep(
+  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool count)
+{
+  // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
+  this->Arena_.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{ 0 }, batches.size(),
+        [&](std::size_t batch)
+        { sweep.Run(batches[batch], Mix(key) + batch, count, this->Progress_); });
+    });
+  this->CheckStop();
+}
+
+int Solver::Settle(
+  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
+{
+  // The power that surfaces and smoke send out again must be that which arrived and was not lost:
+  // after each sweep the field is scaled so that the scene is in balance as a whole. That sums the
+  // slowest mode's series of reflections at once.
+  const double source = sweep.FirstSource();
+  std::vector<double> before(batches.size(), 0.0);
+  double previousChange = 0.0;
+  int quiet = 0;
+  for (int count = 1; count <= MostSettling; ++count)
+  {
+    this->Sweep(sweep, batches, key + count, false);
+    std::vector<double> after(batches.size());
+    double sumBefore = 0.0;
+    double sumAfter = 0.0;
+    for (std::size_t i = 0; i < batches.size(); ++i)
+    {
+      after[i] = sweep.LaterSource(batches[i]);
+      sumBefore += before[i] / Batches;
+      sumAfter += after[i] / Batches;
+    }
+    const double kept = source + sumBefore - sumAfter;
+    if (!(kept > 1e-9 * (source + sumBefore)))
+    {
+      throw Error("light field",
+        "no light is lost anywhere, so that it would grow without end",
+        "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+    }
+    const double scale = std::clamp(source / kept, 0.25, 1e4);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < batches.size(); ++i)
+    {
+      const double change = after[i] - before[i] - (sumAfter - sumBefore);
+      squares += change * change;
+      BatchState& state = batches[i];
+      for (std::vector<float>* values : { &state.Fluence, &state.Illuminance })
+      {
+        for (float& value : *values)
+        {
+          value *= static_cast<float>(scale);
+        }
+      }
+      before[i] = after[i] * scale;
+    }
+    this->Progress_.Report(DirectShare + 0.2 * (1.0 - std::exp(-0.05 * count)));
+    // Settled: what the change would still add up to is below the tolerance, or below its own noise.
+    const double total = source + sumAfter;
+    const double change = std::abs(sumAfter - sumBefore) / total;
+    const double noise = std::sqrt(squares / (Batches * (Batches - 1.0))) / total;
+    const double ratio = previousChange > 0.0 ? std::min(0.99, change / previousChange) : 0.99;
+    const double rest = change * ratio / (1.0 - ratio);
+    previousChange = change;
+    quiet = rest < SettledShare * this->Options_.Tolerance || change < 2.0 * noise ? quiet + 1 : 0;
+    if (count >= FewestSettling && quiet >= 2)
+    {
+      return count;
+    }
+  }
+  throw Error("light field",
+    "the light did not settle in " + std::to_string(MostSettling) + " sweeps",
+    "Check for an albedo and reflectances so close to 1 that light is hardly ever lost");
+}
+
+void Solver::SolveMultiple(int band)
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const bool scatters = this->Scene_.Albedo() > 0.0 && smoke.MaximumExtinction() > 0.0F &&
+    this->Scene_.ExtinctionScale(band) > 0.0;
+  bool reflects = false;
+  for (std::size_t patch = 0; patch < this->Field_.Patches && !reflects; ++patch)
+  {
+    reflects = this->Scene_.PatchReflectance(patch)[band] > 0.0;
+  }
+  const std::string name = "band " + std::to_string(band) + ": ";
+  if (!scatters && !reflects && !smoke.Emits())
+  {
+    this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
+      "albedo or extinction is 0 and no surface reflects");
+    return;
+  }
+  const LineSweep sweep(this->Scene_, this->Field_, band);
+  if (!(sweep.FirstSource() > 0.0))
+  {
+    this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
+      "no light reaches anything that could send it on");
+    return;
+  }
+  std::vector<BatchState> batches(
+    Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
+  const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
+  const int settling = this->Settle(sweep, batches, key);
+  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
+  double error = 0.0;
+  int counted = 0;
+  for (int next = FewestCounted;; next = std::min(MostCounted, next + (next + 1) / 2))
+  {
+    for (; counted < next; ++counted)
+    {
+      this->Sweep(sweep, batches, key + MostSettling + 1 + counted, true);
+      this->Progress_.Report(
+        DirectShare + 0.2 + (0.95 - DirectShare - 0.2) * (1.0 - std::exp(-0.02 * counted)));
+    }
+    error = probes.RelativeError(batches);
+    if (error <= ErrorShare * this->Options_.Tolerance || counted >= MostCounted)
+    {
+      break;
+    }
+  }
+  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+  {
+    Lanes& lanes = this->Field_.MultipleFluence[this->Field_.CellIndex(band, cell)];
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      lanes[batch] = batches[batch].FluenceSum[cell] / static_cast<float>(counted);
+    }
+  }
+  const std::size_t firstSide = this->Field_.PatchIndex(band, 0, 0);
+  for (std::size_t side = 0; side < 2 * this->Field_.Patches; ++side)
+  {
+    Lanes& lanes = this->Field_.MultipleIlluminance[firstSide + side];
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
+    }
+  }
+  this->Say(name + "settling sweeps", settling, "orders of scattering that had to build up");
+  this->Say(name + "counted sweeps", counted,
+    "until the standard error of the veil along lines of sight met the tolerance");
+  this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
+    "each cell is crossed about 1.5 times");
+  this->Say(name + "relative standard error of the veil", error,
+    error <= ErrorShare * this->Options_.Tolerance ? "tolerance met" : "most sweeps reached");
+}
+
+bool Solver::BandsEqual(int a, int b) const
+{
+  if (this->Scene_.ExtinctionScale(a) != this->Scene_.ExtinctionScale(b))
+  {
+    return false;
+  }
+  for (std::size_t patch = 0; patch < this->Field_.Patches; ++patch)
+  {
+    const Spectrum& reflectance = this->Scene_.PatchReflectance(patch);
+    if (reflectance[a] != reflectance[b])
+    {
+      return false;
+    }
+  }
+  const auto& cells = this->Scene_.Lights().Cells();
+  return std::all_of(cells.begin(), cells.end(),
+    [a, b](const EmitterCell& cell) { return cell.Luminance[a] == cell.Luminance[b]; });
+}
+
+LightField Solver::Run()
+{
+  this->Field_.Bands = this->Scene_.Bands();
+  this->Field_.Cells = this->Scene_.Smoke().Cells();
+  this->Field_.Patches = this->Scene_.Patches();
+  const std::size_t bands = this->Field_.Bands;
+  this->Field_.DirectFluence.assign(bands * this->Field_.Cells, 0.0F);
+  this->Field_.MultipleFluence.assign(bands * this->Field_.Cells, Lanes());
+  this->Field_.DirectIlluminance.assign(bands * this->Field_.Patches * 2, 0.0F);
+  this->Field_.MultipleIlluminance.assign(bands * this->Field_.Patches * 2, Lanes());
+  if (this->Scene_.Lights().Lights().empty() && !this->Scene_.Smoke().Emits())
+  {
+    throw Error("light field", "nothing emits light", "Add a sign, a lamp or a flame");
+  }
+  if (!(this->Options_.Tolerance > 0.0))
+  {
+    throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
+  }
+  this->SolveCells();
+  this->SolvePatches();
+  for (int band = 0; band < this->Field_.Bands; ++band)
+  {
+    int same = 0;
+    while (same < band && !this->BandsEqual(same, band))
+    {
+      ++same;
+    }
+    if (same == band)
+    {
+      this->SolveMultiple(band);
+      continue;
+    }
+    std::copy_n(this->Field_.MultipleFluence.begin() + this->Field_.CellIndex(same, 0),
+      this->Field_.Cells,
+      this->Field_.MultipleFluence.begin() + this->Field_.CellIndex(band, 0));
+    std::copy_n(this->Field_.MultipleIlluminance.begin() + this->Field_.PatchIndex(same, 0, 0),
+      2 * this->Field_.Patches,
+      this->Field_.MultipleIlluminance.begin() + this->Field_.PatchIndex(band, 0, 0));
+    this->Say("band " + std::to_string(band) + " skipped", 1.0,
+      "it is equal to band " + std::to_string(same));
+  }
+  this->Progress_.Report(1.0);
+  return std::move(this->Field_);
+}
+
+} // namespace
+
+LightField SolveLightField(
+  const Scene& scene, const LightFieldOptions& options, Progress& progress)
+{
+  return Solver(scene, options, progress).Run();
+}
+
+} // namespace smokevis

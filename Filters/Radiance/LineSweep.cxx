@@ -1,0 +1,348 @@
+#include "LineSweep.h"
+
+#include "Sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr double CrossingsPerSweep = 1.5;
+constexpr std::size_t FewestLines = 512;
+
+/// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface with
+/// a cosine-distributed direction.
+void DrawLine(const Vec3& lower, const Vec3& upper, const std::array<double, 4>& random,
+  Vec3& origin, Vec3& direction, double& length)
+{
+  const Vec3 size = upper - lower;
+  const Vec3 faces(size.y * size.z, size.z * size.x, size.x * size.y);
+  // The first number chooses one of six faces and then a place on it.
+  double pick = random[0] * 2.0 * (faces.x + faces.y + faces.z);
+  int axis = 0;
+  while (axis < 2 && pick >= 2.0 * faces[axis])
+  {
+    pick -= 2.0 * faces[axis];
+    ++axis;
+  }
+  const bool high = pick >= faces[axis];
+  const double place = std::clamp((pick - (high ? faces[axis] : 0.0)) / faces[axis], 0.0, 1.0);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  origin[axis] = high ? upper[axis] : lower[axis];
+  origin[u] = lower[u] + place * size[u];
+  origin[v] = lower[v] + random[1] * size[v];
+  const double sine = std::sqrt(random[2]);
+  const double angle = glm::two_pi<double>() * random[3];
+  direction[axis] = (high ? -1.0 : 1.0) * std::sqrt(1.0 - random[2]);
+  direction[u] = sine * std::cos(angle);
+  direction[v] = sine * std::sin(angle);
+  length = std::numeric_limits<double>::infinity();
+  for (int other = 0; other < 3; ++other)
+  {
+    if (direction[other] != 0.0)
+    {
+      const double plane = direction[other] > 0.0 ? upper[other] : lower[other];
+      length = std::min(length, (plane - origin[other]) / direction[other]);
+    }
+  }
+}
+
+} // namespace
+
+BatchState::BatchState(std::size_t cells, std::size_t sides)
+  : Fluence(cells, 0.0F)
+  , Illuminance(sides, 0.0F)
+  , FluenceSum(cells, 0.0F)
+  , IlluminanceSum(sides, 0.0F)
+  , FluenceTally(cells)
+  , IlluminanceTally(sides)
+{
+}
+
+struct LineSweep::Buffers
+{
+  std::vector<Crossing> Crossings;
+  std::vector<Segment> Segments;
+  /// Of each piece of the line: cell, length, source luminance, exp(-tau), (1 - exp(-tau)) / tau.
+  std::vector<std::int64_t> Cell;
+  std::vector<float> Length, Source, Transmittance, Escape;
+  /// First piece behind each crossing, and the end.
+  std::vector<std::size_t> First;
+  /// Sum of both directions' path integrals.
+  std::vector<float> Integral;
+};
+
+LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
+  : Scene_(scene)
+  , DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
+  , DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0))
+  , Band_(band)
+  , Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>())))
+{
+  const Medium& smoke = scene.Smoke();
+  const std::size_t cells = smoke.Cells();
+  this->InverseVolume_.resize(cells);
+  this->Extinction_.resize(cells);
+  double boundary = 0.0;
+  double volume = 0.0;
+  for (std::size_t cell = 0; cell < cells; ++cell)
+  {
+    const Vec3 size = smoke.CellSize(cell);
+    const double own = size.x * size.y * size.z;
+    this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
+    this->Extinction_[cell] =
+      static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
+    volume += own;
+    boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  }
+  if (smoke.Emits())
+  {
+    this->Emission_.resize(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+    {
+      this->Emission_[cell] =
+        static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
+    }
+  }
+  // Surfaces on the border of the scene lie inside the box that lines start from.
+  const double margin = 1e-4 * glm::length(scene.Upper() - scene.Lower());
+  this->Lower_ = scene.Lower() - margin;
+  this->Upper_ = scene.Upper() + margin;
+  // By Cauchy's formula a line meets a convex body in proportion to its surface.
+  const Vec3 size = this->Upper_ - this->Lower_;
+  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  const double crossings = boundary / box;
+  double lines = crossings > 0.0 ? CrossingsPerSweep * cells / crossings : 0.0;
+  double area = 0.0;
+  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
+  {
+    area += scene.PatchArea(patch);
+  }
+  const double hits = 2.0 * area / box;
+  if (hits > 0.0)
+  {
+    lines = std::max(lines, CrossingsPerSweep * scene.Patches() / hits);
+  }
+  this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
+}
+
+float LineSweep::Outgoing(const BatchState& state, const Hit& hit) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
+  const std::size_t side = 2 * patch + hit.Side;
+  return static_cast<float>(reflectance / glm::pi<double>()) *
+    (this->DirectIlluminance_[side] + state.Illuminance[side]);
+}
+
+void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
+  const std::vector<float>& illuminanceReference, const Vec3& origin, const Vec3& direction,
+  double length, BatchState& tallies, Buffers& buffers) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
+  const std::size_t crossings = buffers.Crossings.size();
+  buffers.Cell.clear();
+  buffers.Length.clear();
+  buffers.First.assign(1, 0);
+  smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  std::size_t crossing = 0;
+  const auto closeUntil = [&](double distance)
+  {
+    while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance <= distance)
+    {
+      buffers.First.push_back(buffers.Cell.size());
+      ++crossing;
+    }
+  };
+  for (const Segment& segment : buffers.Segments)
+  {
+    // A surface inside a cell parts its piece in two.
+    double begin = segment.Begin;
+    closeUntil(begin);
+    while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance < segment.End)
+    {
+      const double middle = buffers.Crossings[crossing].Arrive.Distance;
+      buffers.Cell.push_back(segment.Cell);
+      buffers.Length.push_back(static_cast<float>(middle - begin));
+      begin = middle;
+      closeUntil(middle);
+    }
+    buffers.Cell.push_back(segment.Cell);
+    buffers.Length.push_back(static_cast<float>(segment.End - begin));
+  }
+  closeUntil(std::numeric_limits<double>::infinity());
+  const std::size_t pieces = buffers.Cell.size();
+  buffers.First.push_back(pieces);
+
+  buffers.Source.resize(pieces);
+  buffers.Transmittance.resize(pieces);
+  buffers.Escape.resize(pieces);
+  buffers.Integral.resize(pieces);
+  for (std::size_t i = 0; i < pieces; ++i)
+  {
+    const std::int64_t cell = buffers.Cell[i];
+    buffers.Source[i] = this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) +
+      (this->Emission_.empty() ? 0.0F : this->Emission_[cell]);
+    const float depth = this->Extinction_[cell] * buffers.Length[i];
+    const float transmittance = std::exp(-depth);
+    buffers.Transmittance[i] = transmittance;
+    buffers.Escape[i] = depth < 0.01F
+      ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
+      : (1.0F - transmittance) / depth;
+  }
+
+  const auto arrive = [&](const Hit& hit, float radiance)
+  {
+    const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
+    tallies.IlluminanceTally[side] +=
+      radiance - illuminanceReference[side] * static_cast<float>(1.0 / glm::pi<double>());
+  };
+  float radiance = 0.0F;
+  for (std::size_t part = 0; part <= crossings; ++part)
+  {
+    for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
+    {
+      const float excess = radiance - buffers.Source[i];
+      buffers.Integral[i] =
+        buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
+    }
+    if (part < crossings)
+    {
+      arrive(buffers.Crossings[part].Arrive, radiance);
+      radiance = this->Outgoing(state, buffers.Crossings[part].Leave);
+    }
+  }
+  radiance = 0.0F;
+  for (std::size_t part = crossings + 1; part-- > 0;)
+  {
+    for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
+    {
+      const float excess = radiance - buffers.Source[i];
+      buffers.Integral[i] +=
+        buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
+    }
+    if (part > 0)
+    {
+      arrive(buffers.Crossings[part - 1].Leave, radiance);
+      radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive);
+    }
+  }
+  constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
+  for (std::size_t i = 0; i < pieces; ++i)
+  {
+    const std::int64_t cell = buffers.Cell[i];
+    tallies.FluenceTally[cell] +=
+      buffers.Integral[i] - isotropic * fluenceReference[cell] * buffers.Length[i];
+  }
+}
+
+void LineSweep::Run(
+  BatchState& state, std::uint64_t key, bool count, const Progress& progress) const
+{
+  // The tallies measure by how much the radiance differs from that of a reference field: lengths and
+  // hits have known expectations, so this leaves the mean as it is and takes their scatter away. The
+  // reference must not know of this sweep's lines.
+  std::vector<float> fluenceReference = state.Fluence;
+  std::vector<float> illuminanceReference = state.Illuminance;
+  if (state.Counted > 0)
+  {
+    const float scale = 1.0F / static_cast<float>(state.Counted);
+    std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), fluenceReference.begin(),
+      [scale](float sum) { return scale * sum; });
+    std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
+      illuminanceReference.begin(), [scale](float sum) { return scale * sum; });
+  }
+  std::fill(state.FluenceTally.begin(), state.FluenceTally.end(), 0.0F);
+  std::fill(state.IlluminanceTally.begin(), state.IlluminanceTally.end(), 0.0F);
+
+  const EvenPoints points(key);
+  Buffers buffers;
+  for (std::size_t line = 0; line < this->Lines_; ++line)
+  {
+    if (line % 256 == 0 && progress.ShouldStop())
+    {
+      return;
+    }
+    Vec3 origin;
+    Vec3 direction;
+    double length = 0.0;
+    DrawLine(this->Lower_, this->Upper_, points.Point(line), origin, direction, length);
+    this->TraceLine(state, fluenceReference, illuminanceReference, origin, direction, length, state,
+      buffers);
+  }
+
+  // All directed lines through a convex body measure pi times its surface. Each line drawn serves in
+  // both of its directions.
+  const Vec3 size = this->Upper_ - this->Lower_;
+  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  const double weight = glm::pi<double>() * box / (2.0 * static_cast<double>(this->Lines_));
+  const auto cellWeight = static_cast<float>(weight);
+  for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
+  {
+    state.Fluence[cell] = fluenceReference[cell] +
+      cellWeight * this->InverseVolume_[cell] * state.FluenceTally[cell];
+  }
+  for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
+  {
+    const double area = this->Scene_.PatchArea(side / 2);
+    if (area > 0.0)
+    {
+      state.Illuminance[side] = illuminanceReference[side] +
+        static_cast<float>(weight / area) * state.IlluminanceTally[side];
+    }
+  }
+  if (count)
+  {
+    ++state.Counted;
+    std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), state.Fluence.begin(),
+      state.FluenceSum.begin(), std::plus<>());
+    std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
+      state.Illuminance.begin(), state.IlluminanceSum.begin(), std::plus<>());
+  }
+}
+
+double LineSweep::FirstSource() const
+{
+  double power = 0.0;
+  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
+  {
+    const double emission =
+      this->Emission_.empty() ? 0.0 : 4.0 * glm::pi<double>() * this->Emission_[cell];
+    power += this->Extinction_[cell] / this->InverseVolume_[cell] *
+      (this->Scene_.Albedo() * this->DirectFluence_[cell] + emission);
+  }
+  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
+  {
+    power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
+      this->Scene_.PatchArea(side / 2) * this->DirectIlluminance_[side];
+  }
+  return power;
+}
+
+double LineSweep::LaterSource(const BatchState& state) const
+{
+  double power = 0.0;
+  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
+  {
+    power += this->Scene_.Albedo() * this->Extinction_[cell] / this->InverseVolume_[cell] *
+      state.Fluence[cell];
+  }
+  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
+  {
+    power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
+      this->Scene_.PatchArea(side / 2) * state.Illuminance[side];
+  }
+  return power;
+}
+
+} // namespace smokevis

@@ -1,0 +1,73 @@
+// One sweep of random global lines: light carried along straight lines through the whole scene.
+#pragma once
+
+#include "LightField.h"
+#include "Scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace smokevis
+{
+
+/// What one batch knows of the light field of one band; indices as in LightField, without the band.
+struct BatchState
+{
+  /// Latest estimate of what is not direct.
+  std::vector<float> Fluence, Illuminance;
+  /// Sum of the estimates that count, one a sweep.
+  std::vector<float> FluenceSum, IlluminanceSum;
+  int Counted = 0;
+  /// Scratch of a sweep.
+  std::vector<float> FluenceTally, IlluminanceTally;
+
+  BatchState(std::size_t cells, std::size_t sides);
+};
+
+/// Draws lines of the uniform line measure, carries radiance along each in closed form through the
+/// cells, and tallies its path integral in every cell crossed and its arriving radiance on every
+/// surface met. A surface starts the line anew with its own outgoing radiance. Each line serves both
+/// of its directions. (Random-ray method, Tramm et al. 2017; global-line radiosity, Sbert 1997.)
+class LineSweep
+{
+public:
+  /// @param field holds the direct light of all cells and patches
+  LineSweep(const Scene& scene, const LightField& field, int band);
+
+  /// Lines that cross each cell about 1.5 times.
+  std::size_t Lines() const { return this->Lines_; }
+
+  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance.
+  /// @param key   of the random numbers; must differ from sweep to sweep and batch to batch
+  /// @param count whether the new estimate is added to the sums
+  void Run(BatchState& state, std::uint64_t key, bool count, const Progress& progress) const;
+
+  /// Power that surfaces and smoke send out again of direct light [lm].
+  double FirstSource() const;
+  /// Power that they send out again of the light of a state [lm].
+  double LaterSource(const BatchState& state) const;
+
+private:
+  struct Buffers;
+
+  void TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
+    const std::vector<float>& illuminanceReference, const Vec3& origin, const Vec3& direction,
+    double length, BatchState& tallies, Buffers& buffers) const;
+  float Outgoing(const BatchState& state, const Hit& hit) const;
+
+  const Scene& Scene_;
+  const float* DirectFluence_;
+  const float* DirectIlluminance_;
+  int Band_;
+  /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
+  float Scatter_;
+  /// 1 / volume of each cell.
+  std::vector<float> InverseVolume_;
+  std::vector<float> Extinction_;
+  /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
+  std::vector<float> Emission_;
+  Vec3 Lower_, Upper_;
+  std::size_t Lines_ = 0;
+};
+
+} // namespace smokevis

@@ -1,0 +1,58 @@
+// Random numbers that depend on counters alone, and the point sequence that lines are drawn from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace smokevis
+{
+
+/// A well-mixed 64-bit word from a counter (SplitMix64, Steele, Lea and Flood 2014).
+constexpr std::uint64_t Mix(std::uint64_t counter)
+{
+  counter += 0x9E3779B97F4A7C15ULL;
+  counter = (counter ^ (counter >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  counter = (counter ^ (counter >> 27)) * 0x94D049BB133111EBULL;
+  return counter ^ (counter >> 31);
+}
+
+/// A number in [0, 1) from a word.
+constexpr double ToUnit(std::uint64_t word)
+{
+  return static_cast<double>(word >> 11) * 0x1.0p-53;
+}
+
+/// Points that fill the four-dimensional unit cube evenly: the additive recurrence with the powers of
+/// the root of x^5 = x + 1 (Roberts 2018), moved by a random shift. Any one point is uniform, so that
+/// means over the sequence have no bias; many together lie more evenly than independent ones.
+class EvenPoints
+{
+public:
+  /// Different keys give independent shifts.
+  explicit EvenPoints(std::uint64_t key)
+  {
+    for (int axis = 0; axis < 4; ++axis)
+    {
+      this->Shift_[axis] = ToUnit(Mix(key + 0x632BE59BD9B4E019ULL * (axis + 1)));
+    }
+  }
+
+  std::array<double, 4> Point(std::uint64_t index) const
+  {
+    constexpr double root = 1.1673039782614187;
+    constexpr std::array<double, 4> step = { 1.0 / root, 1.0 / (root * root),
+      1.0 / (root * root * root), 1.0 / (root * root * root * root) };
+    std::array<double, 4> point;
+    for (int axis = 0; axis < 4; ++axis)
+    {
+      const double value = this->Shift_[axis] + static_cast<double>(index) * step[axis];
+      point[axis] = value - static_cast<double>(static_cast<std::int64_t>(value));
+    }
+    return point;
+  }
+
+private:
+  std::array<double, 4> Shift_;
+};
+
+} // namespace smokevis

@@ -1,0 +1,137 @@
+#include "Scene.h"
+
+#include "Errors.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace smokevis
+{
+
+namespace
+{
+
+void CheckDescription(const SceneDescription& description)
+{
+  if (description.Bands != 1 && description.Bands != MaxBands)
+  {
+    throw Error("scene", "there are " + std::to_string(description.Bands) + " bands",
+      "Ask for 1 (luminance) or 3");
+  }
+  for (int band = 0; band < description.Bands; ++band)
+  {
+    const double scale = description.ExtinctionScale[band];
+    if (!(scale >= 0.0) || !std::isfinite(scale))
+    {
+      throw Error("scene", "the extinction of band " + std::to_string(band) + " is scaled by " +
+          std::to_string(scale), "Check the wavelengths and the Angstrom exponent");
+    }
+  }
+  if (!(description.Albedo >= 0.0 && description.Albedo <= 1.0))
+  {
+    throw Error("scene", "the single-scattering albedo is " + std::to_string(description.Albedo),
+      "It must lie between 0 and 1");
+  }
+  const SurfaceMesh& mesh = description.Surfaces;
+  if (mesh.TriangleCell.size() != mesh.Triangles.size())
+  {
+    throw Error("surfaces", "the triangles' cells are not given", "Give one cell a triangle");
+  }
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    for (const std::uint32_t corner : mesh.Triangles[i])
+    {
+      if (corner >= mesh.Points.size())
+      {
+        throw Error("surface triangle " + std::to_string(i), "a corner has no point",
+          "Check the geometry that is put in");
+      }
+    }
+    if (mesh.TriangleCell[i] >= mesh.CellReflectance.size())
+    {
+      throw Error("surface triangle " + std::to_string(i), "its cell has no reflectance",
+        "Give one reflectance a cell");
+    }
+  }
+  for (std::size_t cell = 0; cell < mesh.CellReflectance.size(); ++cell)
+  {
+    for (int band = 0; band < description.Bands; ++band)
+    {
+      const double value = mesh.CellReflectance[cell][band];
+      if (!(value >= 0.0 && value <= 1.0))
+      {
+        throw Error("surface cell " + std::to_string(cell),
+          "the reflectance is " + std::to_string(value), "It must lie between 0 and 1");
+      }
+    }
+  }
+}
+
+SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
+{
+  SurfaceMesh mesh;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  {
+    const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+    const std::vector<Vec3>& vertices = cells[cell].Vertices;
+    mesh.Points.insert(mesh.Points.end(), vertices.begin(), vertices.end());
+    for (std::uint32_t v = 2; v < vertices.size(); ++v)
+    {
+      mesh.Triangles.push_back({ first, first + v - 1, first + v });
+      mesh.TriangleCell.push_back(static_cast<std::uint32_t>(cell));
+    }
+    mesh.CellReflectance.push_back(cells[cell].Reflectance);
+  }
+  return mesh;
+}
+
+} // namespace
+
+Scene::Scene(SceneDescription description)
+  : Description_(std::move(description))
+{
+  CheckDescription(this->Description_);
+  this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
+  this->Smoke_ = Medium(std::move(this->Description_.Grids));
+  this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands);
+  this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_);
+
+  this->PatchReflectance_ = this->Description_.Surfaces.CellReflectance;
+  this->PatchReflectance_.insert(this->PatchReflectance_.end(),
+    this->EmitterMesh_.CellReflectance.begin(), this->EmitterMesh_.CellReflectance.end());
+  this->PatchArea_.assign(this->PatchReflectance_.size(), 0.0);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  this->Lower_ = Vec3(infinity);
+  this->Upper_ = Vec3(-infinity);
+  std::size_t first = 0;
+  for (const SurfaceMesh* mesh : { &this->Description_.Surfaces, &this->EmitterMesh_ })
+  {
+    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+    {
+      const auto& triangle = mesh->Triangles[i];
+      const Vec3& a = mesh->Points[triangle[0]];
+      const Vec3& b = mesh->Points[triangle[1]];
+      const Vec3& c = mesh->Points[triangle[2]];
+      this->PatchArea_[first + mesh->TriangleCell[i]] +=
+        0.5 * glm::length(glm::cross(b - a, c - a));
+      for (const Vec3* corner : { &a, &b, &c })
+      {
+        this->Lower_ = glm::min(this->Lower_, *corner);
+        this->Upper_ = glm::max(this->Upper_, *corner);
+      }
+    }
+    first += mesh->CellReflectance.size();
+  }
+  if (!this->Smoke_.Empty())
+  {
+    this->Lower_ = glm::min(this->Lower_, this->Smoke_.Lower());
+    this->Upper_ = glm::max(this->Upper_, this->Smoke_.Upper());
+  }
+  if (!(this->Lower_.x <= this->Upper_.x))
+  {
+    throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
+  }
+}
+
+} // namespace smokevis

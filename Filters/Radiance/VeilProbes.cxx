@@ -1,0 +1,121 @@
+#include "VeilProbes.h"
+
+#include "Sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr int MostProbes = 64;
+
+Vec3 SphereDirection(double first, double second)
+{
+  const double z = 2.0 * first - 1.0;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
+  const double angle = glm::two_pi<double>() * second;
+  return { sine * std::cos(angle), sine * std::sin(angle), z };
+}
+
+} // namespace
+
+VeilProbes::VeilProbes(
+  const Scene& scene, const LightField& field, int band, std::uint64_t seed)
+{
+  const EvenPoints points(Mix(seed) + 17);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<Sign>& signs = scene.Lights().Signs();
+  const double size = glm::length(scene.Upper() - scene.Lower());
+  for (int i = 0; i < MostProbes; ++i)
+  {
+    const auto random = points.Point(i);
+    if (signs.empty())
+    {
+      const Vec3 eye = scene.Lower() +
+        Vec3(random[0], random[1], Mix(i + seed) / 1.8446744073709552e19) *
+          (scene.Upper() - scene.Lower());
+      this->Add(scene, field, band, eye, SphereDirection(random[2], random[3]), infinity);
+      continue;
+    }
+    const Sign& sign = signs[i % signs.size()];
+    Vec3 away = SphereDirection(random[0], random[1]);
+    away = glm::dot(away, sign.Normal) < 0.0 ? -away : away;
+    const Vec3 start = sign.Centre + 10.0 * scene.Shapes().Tolerance() * sign.Normal;
+    const Hit end = scene.Shapes().Intersect(start, away, 0.0, size);
+    const double reach = (0.1 + 0.9 * random[2]) * std::min(end.Distance, size);
+    this->Add(scene, field, band, start + reach * away, -away, reach);
+  }
+}
+
+void VeilProbes::Add(const Scene& scene, const LightField& field, int band, const Vec3& eye,
+  const Vec3& direction, double reach)
+{
+  Probe probe;
+  const Hit end = scene.Shapes().Intersect(eye, direction, 0.0, 2.0 * reach);
+  const double length = std::min(reach, end.Distance);
+  std::vector<Segment> segments;
+  scene.Smoke().Walk(eye, direction, 0.0, length, segments);
+  double transmittance = 1.0;
+  const double scatter = scene.Albedo() / (4.0 * glm::pi<double>());
+  for (const Segment& segment : segments)
+  {
+    const double depth = scene.Smoke().Extinction(segment.Cell) * scene.ExtinctionScale(band) *
+      (segment.End - segment.Begin);
+    const double lost = -std::expm1(-depth) * transmittance;
+    const double weight = scatter * lost;
+    probe.Pieces.push_back({ segment.Cell, weight });
+    probe.Direct += weight * field.DirectFluence[field.CellIndex(band, segment.Cell)] +
+      (1.0 - scene.Albedo()) * lost * scene.Smoke().EmittedLuminance(segment.Cell);
+    transmittance -= lost;
+  }
+  if (end.Found() && length == end.Distance)
+  {
+    const std::size_t patch = scene.Patch(end);
+    probe.Side = 2 * patch + end.Side;
+    probe.SurfaceWeight =
+      transmittance * scene.PatchReflectance(patch)[band] / glm::pi<double>();
+    probe.Direct +=
+      probe.SurfaceWeight * field.DirectIlluminance[field.PatchIndex(band, patch, end.Side)];
+  }
+  this->Probes_.push_back(std::move(probe));
+}
+
+double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
+{
+  double squares = 0.0;
+  int used = 0;
+  for (const Probe& probe : this->Probes_)
+  {
+    Lanes light;
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      const BatchState& state = batches[batch];
+      double sum = 0.0;
+      for (const Piece& piece : probe.Pieces)
+      {
+        sum += piece.Weight * state.FluenceSum[piece.Cell];
+      }
+      if (probe.SurfaceWeight > 0.0)
+      {
+        sum += probe.SurfaceWeight * state.IlluminanceSum[probe.Side];
+      }
+      light[batch] = static_cast<float>(probe.Direct + sum / std::max(1, state.Counted));
+    }
+    const double mean = Mean(light);
+    if (mean > 0.0)
+    {
+      const double relative = StandardError(light) / mean;
+      squares += relative * relative;
+      ++used;
+    }
+  }
+  return used > 0 ? std::sqrt(squares / used) : 0.0;
+}
+
+} // namespace smokevis

@@ -1,0 +1,44 @@
+// Lines of sight along which the solver watches the error of the veil that it is to deliver.
+#pragma once
+
+#include "LineSweep.h"
+
+#include <vector>
+
+namespace smokevis
+{
+
+/// Lines of sight from random places to the scene's signs, or, without signs, in random directions.
+class VeilProbes
+{
+public:
+  VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed);
+
+  /// Root mean square, over the probes, of the standard error of the light along a probe over that
+  /// light, from the running means of the batches.
+  double RelativeError(const std::vector<BatchState>& batches) const;
+
+private:
+  struct Piece
+  {
+    std::int64_t Cell;
+    /// Luminance at the eye over fluence in the cell.
+    double Weight;
+  };
+  struct Probe
+  {
+    std::vector<Piece> Pieces;
+    /// What arrives without multiply scattered light [cd/m2].
+    double Direct = 0.0;
+    /// Side of the patch that ends the line, and luminance at the eye over its illuminance.
+    std::size_t Side = 0;
+    double SurfaceWeight = 0.0;
+  };
+
+  void Add(const Scene& scene, const LightField& field, int band, const Vec3& eye,
+    const Vec3& direction, double reach);
+
+  std::vector<Probe> Probes_;
+};
+
+} // namespace smokevis
