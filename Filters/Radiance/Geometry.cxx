@@ -242,7 +242,7 @@ Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters)
   self.Centre = 0.5 * (lower + upper);
   self.Size = glm::length(upper - lower);
   self.Tolerance = RelativeTolerance * self.Size;
-  self.Device.reset(rtcNewDevice("threads=1,set_affinity=0"));
+  self.Device.reset(rtcNewDevice("set_affinity=0"));
   if (!self.Device)
   {
     throw Error("surfaces", "Embree could not be started", "Check that the machine has SSE2");

@@ -1,0 +1,169 @@
+#include "FloorMap.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Jin's law for signs that reflect light: visibility times extinction (Jin 1978; FDS's default).
+constexpr double JinConstant = 3.0;
+/// FDS reports no visibility beyond this [m].
+constexpr double FarthestVisibility = 30.0;
+
+double JinVisibility(double extinction)
+{
+  return extinction * FarthestVisibility > JinConstant ? JinConstant / extinction
+                                                       : FarthestVisibility;
+}
+
+/// Counts of what was left out.
+struct Skipped
+{
+  std::atomic<std::size_t> Solid{ 0 };
+  std::atomic<std::size_t> Away{ 0 };
+  std::atomic<std::size_t> CutOff{ 0 };
+  std::atomic<std::size_t> Hidden{ 0 };
+};
+
+bool FacesAway(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
+{
+  return std::all_of(sign.Cells.begin(), sign.Cells.end(),
+    [&](std::size_t cell)
+    { return glm::dot(eye - lights.CellCentre(cell), lights.CellNormal(cell)) <= 0.0; });
+}
+
+void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t place,
+  FloorMap& map, Skipped& skipped)
+{
+  const EmitterSet& lights = view.TheScene().Lights();
+  const Medium& smoke = view.TheScene().Smoke();
+  const Vec3 eye = options.FirstPlace +
+    Vec3(static_cast<double>(place % options.PlacesX) * options.StepX,
+      static_cast<double>(place / options.PlacesX) * options.StepY, 0.0);
+  const std::int64_t cell = smoke.Locate(eye);
+  map.JinVisibility[place] =
+    static_cast<float>(JinVisibility(cell < 0 ? 0.0 : smoke.Extinction(cell)));
+  if (view.InsideSolid(eye))
+  {
+    map.Status[place] = PlaceStatus::InsideSolid;
+    ++skipped.Solid;
+    return;
+  }
+  for (std::size_t sign = 0; sign < map.Signs; ++sign)
+  {
+    if (FacesAway(lights, lights.Signs()[sign], eye))
+    {
+      ++skipped.Away;
+      continue;
+    }
+    if (options.CutOff > 0.0 &&
+      PerceivedContrastBound(view, sign, eye, options.Eye) < options.CutOff)
+    {
+      ++skipped.CutOff;
+      continue;
+    }
+    const SignMeasurement measured = MeasureSign(view, sign, eye, options.Eye);
+    if (!measured.InView)
+    {
+      ++skipped.Hidden;
+      continue;
+    }
+    const std::size_t index = place * map.Signs + sign;
+    map.Contrast[index] = static_cast<float>(measured.Contrast);
+    map.PerceivedContrast[index] = static_cast<float>(measured.PerceivedContrast);
+    map.SignLuminance[index] = static_cast<float>(measured.LitLuminance);
+    map.VisibleFraction[index] = static_cast<float>(measured.VisibleFraction);
+    if (map.BestSign[place] < 0 || measured.PerceivedContrast > map.Visibility[place])
+    {
+      const double distance = glm::length(lights.Signs()[sign].Centre - eye);
+      map.BestSign[place] = lights.Signs()[sign].Id;
+      map.Visibility[place] = static_cast<float>(measured.PerceivedContrast);
+      map.VisibilityError[place] = static_cast<float>(measured.PerceivedContrastError);
+      map.OpticalDepth[place] = static_cast<float>(measured.OpticalDepth);
+      map.JinVisibility[place] =
+        static_cast<float>(JinVisibility(measured.OpticalDepth / distance));
+    }
+  }
+  if (map.BestSign[place] >= 0)
+  {
+    map.Status[place] = map.Visibility[place] < options.ContrastThreshold
+      ? PlaceStatus::BelowThreshold
+      : PlaceStatus::Seen;
+  }
+}
+
+} // namespace
+
+FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progress& progress)
+{
+  FloorMap map;
+  map.Signs = view.TheScene().Lights().Signs().size();
+  if (map.Signs == 0)
+  {
+    throw Error("floor map", "there is no sign", "Give emitters with a SignId of 0 or more");
+  }
+  if (options.PlacesX < 1 || options.PlacesY < 1)
+  {
+    throw Error("floor map", "there are no places", "Give a resolution of at least 1 x 1");
+  }
+  const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
+  map.Status.assign(places, PlaceStatus::NoSignInView);
+  map.BestSign.assign(places, -1);
+  for (std::vector<float>* values :
+    { &map.Visibility, &map.VisibilityError, &map.OpticalDepth, &map.JinVisibility })
+  {
+    values->assign(places, 0.0F);
+  }
+  for (std::vector<float>* values :
+    { &map.Contrast, &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction })
+  {
+    values->assign(places * map.Signs, 0.0F);
+  }
+  Skipped skipped;
+  tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
+  const std::size_t chunk = std::max<std::size_t>(8, places / 50);
+  for (std::size_t begin = 0; begin < places; begin += chunk)
+  {
+    const std::size_t end = std::min(places, begin + chunk);
+    arena.execute(
+      [&]
+      {
+        tbb::parallel_for(begin, end,
+          [&](std::size_t place)
+          {
+            if (!progress.ShouldStop())
+            {
+              MeasurePlace(view, options, place, map, skipped);
+            }
+          });
+      });
+    progress.Report(static_cast<double>(end) / static_cast<double>(places));
+    if (progress.ShouldStop())
+    {
+      throw Error("floor map", "the work was stopped");
+    }
+  }
+  const auto say = [&map](const char* what, std::size_t count, const char* why)
+  { map.Report.push_back({ what, static_cast<double>(count), why }); };
+  const std::size_t views = places * map.Signs;
+  const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
+  say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");
+  say("places skipped", skipped.Solid, "inside a solid");
+  say("views of signs skipped", skipped.Away, "the sign faces away");
+  say("views of signs skipped", skipped.Hidden, "the sign is hidden");
+  say("views of signs skipped", skipped.CutOff, "its contrast is bounded below the cut-off");
+  return map;
+}
+
+} // namespace smokevis

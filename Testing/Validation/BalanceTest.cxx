@@ -1,0 +1,152 @@
+// Conservation of energy, reciprocity and superposition.
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace
+{
+
+using namespace smokevis;
+constexpr double Pi = std::numbers::pi;
+
+/// A closed room with heterogeneous smoke, a block, a hanging lamp and a sign mounted on a wall.
+SceneDescription FurnishedRoom(double albedo, double extinction)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 upper(4, 3, 2.5);
+  if (extinction > 0.0)
+  {
+    scene.Grids = { scenes::NoisySmoke(
+      Vec3(0.0), upper, { 24, 18, 15 }, 0.5 * extinction, 1.5 * extinction, 2) };
+  }
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, 0.5);
+  scenes::AddBlock(scene.Surfaces, { 1.5, 1, 0 }, { 2, 1.5, 1 }, 0.25, 0.3);
+  scene.Emitters =
+    scenes::Barcode({ 4, 1.5, 1.875 }, { -1, 0, 0 }, { 0, 0, 1 }, 0.5, 0.25, 5, 100.0, 0, 0.1);
+  scene.Emitters.push_back(
+    scenes::Plate({ 1, 1, 2 }, { 0, 0, -1 }, { 1, 0, 0 }, 0.5, 0.5, 20.0, 0.6));
+  return scene;
+}
+
+void CheckBalance(const std::string& name, double albedo, double extinction)
+{
+  const Solved solved(FurnishedRoom(albedo, extinction));
+  double emitted = 0.0;
+  const EmitterSet& lights = solved.TheScene->Lights();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    emitted += Pi * lights.Cells()[cell].Luminance[0] * lights.CellArea(cell);
+  }
+  const Estimate smoke = solved.AbsorbedInSmoke();
+  const Estimate surfaces = solved.AbsorbedOnSurfaces();
+  report::Relative(name, emitted, smoke.Mean + surfaces.Mean, 1e-3,
+    std::hypot(smoke.StandardError, surfaces.StandardError));
+}
+
+// Nothing leaves a closed room: what is emitted is absorbed, to the promised 0.1 %.
+TEST(Balance, ClosedRoom)
+{
+  report::Head("Energy balance of a closed room [lm]");
+  CheckBalance("no smoke", 0.0, 0.0);
+  CheckBalance("extinction 0.5, albedo 0", 0.0, 0.5);
+  CheckBalance("extinction 0.5, albedo 0.6", 0.6, 0.5);
+  CheckBalance("extinction 2, albedo 0.9", 0.9, 2.0);
+  CheckBalance("extinction 2, albedo 1", 1.0, 2.0);
+}
+
+/// Two squares in a room with smoke and a block half between them; one emits.
+SceneDescription TwoSquares(bool firstEmits)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.7;
+  const Vec3 upper(3, 2, 2);
+  scene.Grids = { scenes::NoisySmoke(Vec3(0.0), upper, { 15, 10, 10 }, 0.3, 1.0, 4) };
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.5, 0.4);
+  scenes::AddBlock(scene.Surfaces, { 1.4, 0.8, 0 }, { 1.6, 1.4, 1.1 }, 0.5, 0.4);
+  scene.Emitters = { scenes::Plate({ 0.5, 1, 1 }, { 1, 0, 0 }, { 0, 0, 1 }, 0.6, 0.4,
+                       firstEmits ? 1.0 : 0.0, 0.0),
+    scenes::Plate({ 2.5, 0.7, 1.2 }, glm::normalize(Vec3(-1, 0.2, 0)), { 0, 0, 1 }, 0.3, 0.5,
+      firstEmits ? 0.0 : 1.0, 0.0) };
+  return scene;
+}
+
+// Light exchanged by two patches is the same either way: area times illuminance for one luminance.
+TEST(Balance, ReciprocityOfTwoPatches)
+{
+  report::Head("Reciprocity of two plates through smoke and reflections");
+  const Solved there(TwoSquares(true));
+  const Solved back(TwoSquares(false));
+  const std::size_t first = there.TheScene->SurfacePatches();
+  const std::size_t second = first + 1;
+  const double areaOfFirst = there.TheScene->PatchArea(first);
+  const double areaOfSecond = there.TheScene->PatchArea(second);
+  const std::size_t onFirst = back.Field->PatchIndex(0, first, 0);
+  const std::size_t onSecond = there.Field->PatchIndex(0, second, 0);
+  // Both sides are quadratures over partly hidden plates, refined to a few permille.
+  report::Relative("direct", areaOfFirst * back.Field->DirectIlluminance[onFirst],
+    areaOfSecond * there.Field->DirectIlluminance[onSecond], 0.01);
+  const Estimate forth = there.Illuminance({ second }, 0);
+  const Estimate home = back.Illuminance({ first }, 0);
+  report::Relative("in all", areaOfFirst * home.Mean, areaOfSecond * forth.Mean, 0.01,
+    std::hypot(areaOfFirst * home.StandardError, areaOfSecond * forth.StandardError));
+}
+
+// The direct parts of two lights add up to float rounding: each is computed on its own.
+TEST(Balance, Superposition)
+{
+  report::Head("Superposition of a sign and a lamp");
+  const SceneDescription both = FurnishedRoom(0.6, 0.5);
+  SceneDescription sign = both;
+  sign.Emitters.back().Luminance = {};
+  SceneDescription lamp = both;
+  for (std::size_t cell = 0; cell + 1 < lamp.Emitters.size(); ++cell)
+  {
+    lamp.Emitters[cell].Luminance = {};
+  }
+  const Solved solvedBoth(both);
+  const Solved solvedSign(sign);
+  const Solved solvedLamp(lamp);
+  const auto largestChange = [](const std::vector<float>& sum, const std::vector<float>& a,
+                               const std::vector<float>& b)
+  {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+    {
+      const double parts = static_cast<double>(a[i]) + b[i];
+      if (parts > 0.0)
+      {
+        worst = std::max(worst, std::abs(sum[i] - parts) / parts);
+      }
+      else
+      {
+        EXPECT_EQ(sum[i], 0.0F);
+      }
+    }
+    return worst;
+  };
+  // Three roundings to float, each of at most 6e-8.
+  report::Absolute("direct fluence", 0.0,
+    largestChange(solvedBoth.Field->DirectFluence, solvedSign.Field->DirectFluence,
+      solvedLamp.Field->DirectFluence),
+    3e-7);
+  report::Absolute("direct illuminance", 0.0,
+    largestChange(solvedBoth.Field->DirectIlluminance, solvedSign.Field->DirectIlluminance,
+      solvedLamp.Field->DirectIlluminance),
+    3e-7);
+  std::vector<std::int64_t> cells(solvedBoth.TheScene->Smoke().Cells());
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  {
+    cells[cell] = static_cast<std::int64_t>(cell);
+  }
+  const Estimate sum = solvedBoth.Fluence(cells);
+  const Estimate a = solvedSign.Fluence(cells);
+  const Estimate b = solvedLamp.Fluence(cells);
+  report::Relative("mean fluence", a.Mean + b.Mean, sum.Mean, 1e-3,
+    std::hypot(std::hypot(a.StandardError, b.StandardError), sum.StandardError));
+}
+
+} // namespace

@@ -1,0 +1,84 @@
+// Attenuation through many cells of different smoke: an analytic sum.
+#include "Solved.h"
+#include "SceneLibrary.h"
+#include "TestReport.h"
+
+#include <cmath>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Sum of extinction times the length in each cell, by clipping the line against every cell.
+double AnalyticDepth(const SmokeGrid& grid, const Vec3& from, const Vec3& to)
+{
+  const Vec3 offset = to - from;
+  double depth = 0.0;
+  std::size_t cell = 0;
+  for (std::size_t k = 1; k < grid.Nodes[2].size(); ++k)
+  {
+    for (std::size_t j = 1; j < grid.Nodes[1].size(); ++j)
+    {
+      for (std::size_t i = 1; i < grid.Nodes[0].size(); ++i, ++cell)
+      {
+        const std::array<std::size_t, 3> index = { i, j, k };
+        double enter = 0.0;
+        double leave = 1.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double low = (grid.Nodes[axis][index[axis] - 1] - from[axis]) / offset[axis];
+          const double high = (grid.Nodes[axis][index[axis]] - from[axis]) / offset[axis];
+          enter = std::max(enter, std::min(low, high));
+          leave = std::min(leave, std::max(low, high));
+        }
+        depth += grid.Extinction[cell] * std::max(0.0, leave - enter) * glm::length(offset);
+      }
+    }
+  }
+  return depth;
+}
+
+// Rounding of sums of a few hundred pieces in double precision is far below 1e-6; that figure leaves
+// room for float cell values only.
+TEST(BeerLambert, SignThroughHeterogeneousSmoke)
+{
+  report::Head("Beer-Lambert through 60 x 30 x 30 random cells");
+  SceneDescription description;
+  description.Albedo = 0.0;
+  description.Grids = { scenes::NoisySmoke(
+    Vec3(0.0), Vec3(6, 3, 3), { 60, 30, 30 }, 0.0, 2.0, 3) };
+  description.Emitters = { scenes::Plate(
+    { 6, 1.5, 1.5 }, { -1, 0, 0 }, { 0, 0, 1 }, 2.5, 2.5, 100.0, 0.0, 0) };
+  const SmokeGrid grid = description.Grids[0];
+  const Solved solved(description);
+  Pcg32 random(1, 1);
+  for (int i = 0; i < 10; ++i)
+  {
+    const Vec3 eye(3.0 * random.Uniform(), 3.0 * random.Uniform(), 3.0 * random.Uniform());
+    const Vec3 target(6.0, 0.3 + 2.4 * random.Uniform(), 0.3 + 2.4 * random.Uniform());
+    const RayLight light = solved.Trace({ eye, glm::normalize(target - eye) });
+    const double depth = AnalyticDepth(grid, eye, target);
+    const std::string name = "ray " + std::to_string(i);
+    report::Relative(name + " optical depth", depth, light.OpticalDepth, 1e-6);
+    report::Relative(name + " luminance", 100.0 * std::exp(-depth), light.Total(), 1e-6);
+  }
+}
+
+// An optical depth of 1e6 leaves nothing, without underflow doing harm.
+TEST(BeerLambert, ExtremeDepths)
+{
+  report::Head("Beer-Lambert at extreme depths, 4 m path");
+  for (const double extinction : { 0.0, 1e-30, 1e-9, 10.0, 2.5e5 })
+  {
+    SceneDescription description = scenes::Tunnel(extinction, 0.0);
+    const Solved solved(description);
+    const Vec3 eye = scenes::TunnelEye;
+    const RayLight light = solved.Trace({ eye, { 1, 0, 0 } });
+    const double depth = static_cast<float>(extinction) * 3.999;
+    report::Relative("optical depth", depth, light.OpticalDepth, 1e-6);
+    report::Relative("luminance", std::exp(-depth), light.Total(), 1e-6);
+  }
+}
+
+} // namespace

@@ -1,0 +1,125 @@
+// A point source in uniform smoke: airlight of single scattering, and the fluence with all orders.
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace
+{
+
+using namespace smokevis;
+constexpr double Pi = std::numbers::pi;
+
+/// A small sphere of 80 Lambertian triangles that stands for an isotropic point source. A sphere's
+/// intensity is luminance times cross-section in every direction; that of the polyhedron, its
+/// projected area, differs by less than 1 % with direction, and by its mean a quarter of its
+/// surface (Cauchy), which the luminance makes up for.
+std::vector<EmitterCell> PointSource(const Vec3& centre, double radius, double intensity)
+{
+  std::vector<EmitterCell> cells = scenes::EmittingSphere(centre, radius, 1, false, 1.0, 0.0);
+  double area = 0.0;
+  for (const EmitterCell& cell : cells)
+  {
+    area += 0.5 *
+      glm::length(glm::cross(
+        cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]));
+  }
+  for (EmitterCell& cell : cells)
+  {
+    cell.Luminance.fill(4.0 * intensity / area);
+  }
+  return cells;
+}
+
+// L = omega I0 beta^2 Lhat for a single scattering (Sun et al. 2005). An albedo of 0.001 keeps the
+// second order below 1e-3 of it. 1 % is the promise for luminance, and also what the polyhedron's
+// intensity may differ by in one direction.
+TEST(PointSource, AirlightOfSingleScattering)
+{
+  report::Head("Airlight of a point source, single scattering");
+  const report::ReferenceTable table("airlight_single_scatter_point.csv");
+  constexpr double Albedo = 0.001;
+  for (const double distance : { 0.5, 1.0, 2.0, 5.0 })
+  {
+    SceneDescription description;
+    description.Albedo = Albedo;
+    // Eye at the origin, source on the x axis, rays in the plane z = 0.
+    description.Grids = { scenes::UniformSmoke(
+      { -20, -3, -3 }, { 20, 20, 3 }, { 80, 46, 12 }, 1.0) };
+    description.Emitters = PointSource({ distance, 0, 0 }, 0.002, 1.0);
+    const Solved solved(description);
+    for (std::size_t row = 0; row < table.Rows(); ++row)
+    {
+      const double angle = table.Number(row, "gamma_deg");
+      if (table.Number(row, "T_sv") != distance || (angle != 15.0 && angle != 60.0 && angle != 120.0))
+      {
+        continue;
+      }
+      // Beyond 15 mean free paths lies less than 1e-6 of the light.
+      const double length = std::min(15.0, table.Number(row, "T_vp"));
+      const Vec3 direction(std::cos(angle * Pi / 180.0), std::sin(angle * Pi / 180.0), 0.0);
+      const RayLight light = solved.TheView->TraceVeil(Vec3(0.0), direction, length, 0);
+      report::Relative("distance " + table.Text(row, "T_sv") + " angle " +
+          table.Text(row, "gamma_deg") + " depth " + table.Text(row, "T_vp"),
+        table.Number(row, "Lhat_direct"), light.Veil() / Albedo, 0.01,
+        StandardError(light.VeilMultiple) / Albedo);
+    }
+  }
+}
+
+// Fluence of 1 lm in an infinite medium (Case, de Hoffmann and Placzek 1953), read on the axes at 1, 2
+// and 3 mean free paths in cells of 0.1; walls of the volume are ten mean free paths away. The
+// source's own neighbourhood is steep: cells grow with the distance to it. 2 % is for the flat sources
+// of the coarser cells.
+TEST(PointSource, InfiniteMediumLong)
+{
+  report::Head("Fluence of a point source in an infinite medium");
+  const report::ReferenceTable table("infinite_medium_point_source.csv");
+  std::vector<double> nodes;
+  for (const double at : { 0.05, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 0.95, 1.05, 1.3, 1.6, 1.95, 2.05,
+         2.5, 2.95, 3.05, 3.5, 4.0, 5.0, 6.0, 7.0, 8.5, 10.0 })
+  {
+    nodes.push_back(at);
+    nodes.push_back(-at);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  for (const double albedo : { 0.5, 0.9 })
+  {
+    SceneDescription description;
+    description.Albedo = albedo;
+    SmokeGrid grid;
+    grid.Name = "smoke";
+    grid.Nodes = { nodes, nodes, nodes };
+    const std::size_t size = nodes.size() - 1;
+    grid.Extinction.assign(size * size * size, 1.0F);
+    description.Grids = { grid };
+    description.Emitters = PointSource(Vec3(0.0), 0.01, 0.25 / Pi);
+    const Solved solved(description);
+    for (std::size_t row = 0; row < table.Rows(); ++row)
+    {
+      const double r = table.Number(row, "r");
+      if (table.Number(row, "omega") != albedo || (r != 1.0 && r != 2.0 && r != 3.0))
+      {
+        continue;
+      }
+      std::vector<std::int64_t> cells;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (const double sign : { -1.0, 1.0 })
+        {
+          Vec3 point(0.0);
+          point[axis] = sign * r;
+          cells.push_back(solved.TheScene->Smoke().Locate(point));
+        }
+      }
+      const Estimate fluence = solved.Fluence(cells);
+      report::Relative("albedo " + table.Text(row, "omega") + " r " + table.Text(row, "r"),
+        table.Number(row, "G"), fluence.Mean, 0.02, fluence.StandardError);
+    }
+  }
+}
+
+} // namespace

@@ -1,0 +1,441 @@
+#include "SceneLibrary.h"
+
+#include "ReferenceIntegrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace smokevis::scenes
+{
+
+namespace
+{
+
+constexpr double Pi = std::numbers::pi;
+
+struct Face
+{
+  Vec3 Corner, EdgeU, EdgeV;
+};
+
+/// Faces of a box with fronts inwards: low x, high x, low y, high y, low z, high z.
+std::array<Face, 6> InwardFaces(const Vec3& lower, const Vec3& upper)
+{
+  const Vec3 size = upper - lower;
+  const Vec3 x(size.x, 0.0, 0.0);
+  const Vec3 y(0.0, size.y, 0.0);
+  const Vec3 z(0.0, 0.0, size.z);
+  return { Face{ lower, y, z }, Face{ lower + x, z, y }, Face{ lower, z, x },
+    Face{ lower + y, x, z }, Face{ lower, x, y }, Face{ lower + z, y, x } };
+}
+
+int Pieces(const Vec3& edge, double patchSize)
+{
+  return std::max(1, static_cast<int>(std::ceil(glm::length(edge) / patchSize - 1e-9)));
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+std::size_t AddRectangle(SurfaceMesh& mesh, const Vec3& corner, const Vec3& edgeU,
+  const Vec3& edgeV, int nu, int nv, double reflectance)
+{
+  const std::size_t firstCell = mesh.CellReflectance.size();
+  const auto firstPoint = static_cast<std::uint32_t>(mesh.Points.size());
+  for (int j = 0; j <= nv; ++j)
+  {
+    for (int i = 0; i <= nu; ++i)
+    {
+      mesh.Points.push_back(corner + edgeU * (static_cast<double>(i) / nu) +
+        edgeV * (static_cast<double>(j) / nv));
+    }
+  }
+  const auto row = static_cast<std::uint32_t>(nu + 1);
+  for (int j = 0; j < nv; ++j)
+  {
+    for (int i = 0; i < nu; ++i)
+    {
+      const std::uint32_t a = firstPoint + static_cast<std::uint32_t>(j) * row +
+        static_cast<std::uint32_t>(i);
+      const auto cell = static_cast<std::uint32_t>(mesh.CellReflectance.size());
+      mesh.Triangles.push_back({ a, a + 1, a + 1 + row });
+      mesh.Triangles.push_back({ a, a + 1 + row, a + row });
+      mesh.TriangleCell.insert(mesh.TriangleCell.end(), 2, cell);
+      mesh.CellReflectance.push_back({ reflectance, reflectance, reflectance });
+    }
+  }
+  return firstCell;
+}
+
+//--------------------------------------------------------------------------------------------------
+void AddRoom(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
+  double reflectance)
+{
+  for (const Face& face : InwardFaces(lower, upper))
+  {
+    AddRectangle(mesh, face.Corner, face.EdgeU, face.EdgeV, Pieces(face.EdgeU, patchSize),
+      Pieces(face.EdgeV, patchSize), reflectance);
+  }
+}
+
+//--------------------------------------------------------------------------------------------------
+void AddBlock(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
+  double reflectance)
+{
+  for (const Face& face : InwardFaces(lower, upper))
+  {
+    AddRectangle(mesh, face.Corner, face.EdgeV, face.EdgeU, Pieces(face.EdgeV, patchSize),
+      Pieces(face.EdgeU, patchSize), reflectance);
+  }
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<double> Linear(double first, double last, int intervals)
+{
+  std::vector<double> nodes;
+  for (int i = 0; i <= intervals; ++i)
+  {
+    nodes.push_back(first + (last - first) * i / intervals);
+  }
+  return nodes;
+}
+
+//--------------------------------------------------------------------------------------------------
+SmokeGrid UniformSmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
+  double extinction)
+{
+  SmokeGrid grid;
+  grid.Name = "uniform smoke";
+  std::size_t count = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.Nodes[axis] = Linear(lower[axis], upper[axis], cells[axis]);
+    count *= static_cast<std::size_t>(cells[axis]);
+  }
+  grid.Extinction.assign(count, static_cast<float>(extinction));
+  return grid;
+}
+
+//--------------------------------------------------------------------------------------------------
+SmokeGrid NoisySmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
+  double low, double high, std::uint64_t seed)
+{
+  SmokeGrid grid = UniformSmoke(lower, upper, cells, 0.0);
+  grid.Name = "noisy smoke";
+  Pcg32 random(seed, 1);
+  for (float& extinction : grid.Extinction)
+  {
+    extinction = static_cast<float>(low + (high - low) * random.Uniform());
+  }
+  return grid;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node)
+{
+  std::pair<SmokeGrid, SmokeGrid> parts;
+  std::array<int, 3> size{};
+  for (int a = 0; a < 3; ++a)
+  {
+    size[a] = static_cast<int>(grid.Nodes[a].size()) - 1;
+  }
+  parts.first.Name = grid.Name + ", low part";
+  parts.second.Name = grid.Name + ", high part";
+  parts.first.Nodes = parts.second.Nodes = grid.Nodes;
+  const auto cut = grid.Nodes[axis].begin() + node;
+  parts.first.Nodes[axis].assign(grid.Nodes[axis].begin(), cut + 1);
+  parts.second.Nodes[axis].assign(cut, grid.Nodes[axis].end());
+  std::size_t cell = 0;
+  std::array<int, 3> index{};
+  for (index[2] = 0; index[2] < size[2]; ++index[2])
+  {
+    for (index[1] = 0; index[1] < size[1]; ++index[1])
+    {
+      for (index[0] = 0; index[0] < size[0]; ++index[0], ++cell)
+      {
+        SmokeGrid& part = index[axis] < node ? parts.first : parts.second;
+        part.Extinction.push_back(grid.Extinction[cell]);
+        if (!grid.EmittedLuminance.empty())
+        {
+          part.EmittedLuminance.push_back(grid.EmittedLuminance[cell]);
+        }
+      }
+    }
+  }
+  return parts;
+}
+
+//--------------------------------------------------------------------------------------------------
+EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double width,
+  double height, double luminance, double reflectance, int signId)
+{
+  const Vec3 right = glm::normalize(glm::cross(up, normal)) * (0.5 * width);
+  const Vec3 top = glm::normalize(glm::cross(normal, right)) * (0.5 * height);
+  EmitterCell cell;
+  cell.Vertices = { centre - right - top, centre + right - top, centre + right + top,
+    centre - right + top };
+  cell.Luminance = { luminance, luminance, luminance };
+  cell.Reflectance = { reflectance, reflectance, reflectance };
+  cell.SignId = signId;
+  return cell;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
+  double width, double height, int bars, double luminance, int signId, double reflectance)
+{
+  const Vec3 right = glm::normalize(glm::cross(up, normal));
+  std::vector<EmitterCell> cells;
+  for (int bar = 0; bar < bars; ++bar)
+  {
+    const double offset = width * ((bar + 0.5) / bars - 0.5);
+    cells.push_back(Plate(centre + right * offset, normal, up, width / bars, height,
+      bar % 2 == 0 ? luminance : 0.0, reflectance, signId));
+  }
+  return cells;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
+  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance)
+{
+  std::vector<EmitterCell> cells;
+  const auto at = [&](int i, int j)
+  { return corner + edgeU * (static_cast<double>(i) / nu) + edgeV * (static_cast<double>(j) / nv); };
+  for (int j = 0; j < nv; ++j)
+  {
+    for (int i = 0; i < nu; ++i)
+    {
+      EmitterCell cell;
+      cell.Vertices = { at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) };
+      cell.Luminance = { luminance, luminance, luminance };
+      cell.Reflectance = { reflectance, reflectance, reflectance };
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<EmitterCell> EmittingRoom(
+  const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance)
+{
+  std::vector<EmitterCell> cells;
+  for (const Face& face : InwardFaces(lower, upper))
+  {
+    const auto wall =
+      EmittingRectangle(face.Corner, face.EdgeU, face.EdgeV, n, n, luminance, reflectance);
+    cells.insert(cells.end(), wall.begin(), wall.end());
+  }
+  return cells;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int cuts, bool inwards,
+  double luminance, double reflectance)
+{
+  const double golden = 0.5 * (1.0 + std::sqrt(5.0));
+  std::vector<Vec3> points;
+  for (const double s : { -1.0, 1.0 })
+  {
+    for (const double t : { -golden, golden })
+    {
+      points.emplace_back(0.0, s, t);
+      points.emplace_back(s, t, 0.0);
+      points.emplace_back(t, 0.0, s);
+    }
+  }
+  using Triangle = std::array<Vec3, 3>;
+  std::vector<Triangle> triangles;
+  // The faces of an icosahedron with edge 2 are the triples of corners at that distance.
+  const auto joined = [&](std::size_t a, std::size_t b)
+  { return std::abs(glm::length(points[a] - points[b]) - 2.0) < 1e-9; };
+  for (std::size_t a = 0; a < points.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < points.size(); ++b)
+    {
+      for (std::size_t c = b + 1; c < points.size(); ++c)
+      {
+        if (joined(a, b) && joined(b, c) && joined(a, c))
+        {
+          triangles.push_back({ glm::normalize(points[a]), glm::normalize(points[b]),
+            glm::normalize(points[c]) });
+        }
+      }
+    }
+  }
+  for (int cut = 0; cut < cuts; ++cut)
+  {
+    std::vector<Triangle> finer;
+    for (const Triangle& t : triangles)
+    {
+      const Vec3 ab = glm::normalize(t[0] + t[1]);
+      const Vec3 bc = glm::normalize(t[1] + t[2]);
+      const Vec3 ca = glm::normalize(t[2] + t[0]);
+      finer.insert(finer.end(),
+        { { t[0], ab, ca }, { ab, t[1], bc }, { ca, bc, t[2] }, { ab, bc, ca } });
+    }
+    triangles = std::move(finer);
+  }
+  double volume = 0.0;
+  for (const Triangle& t : triangles)
+  {
+    volume += std::abs(glm::dot(t[0], glm::cross(t[1], t[2]))) / 6.0;
+  }
+  const double scale = radius * std::cbrt(4.0 / 3.0 * Pi / volume);
+  std::vector<EmitterCell> cells;
+  for (Triangle& t : triangles)
+  {
+    const bool outward = glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), t[0]) > 0.0;
+    if (outward == inwards)
+    {
+      std::swap(t[1], t[2]);
+    }
+    EmitterCell cell;
+    cell.Vertices = { centre + t[0] * scale, centre + t[1] * scale, centre + t[2] * scale };
+    cell.Luminance = { luminance, luminance, luminance };
+    cell.Reflectance = { reflectance, reflectance, reflectance };
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription Tunnel(double extinction, double albedo)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 lower(0.0);
+  const Vec3 upper(4.0, 1.0, 1.0);
+  scene.Grids.push_back(UniformSmoke(lower, upper, { 40, 10, 10 }, extinction));
+  AddRoom(scene.Surfaces, lower, upper, 0.1, 0.2);
+  scene.Emitters = Barcode({ 4.0, 0.5, 0.5 }, { -1, 0, 0 }, { 0, 0, 1 }, 0.3, 0.3, 9, 1.0, 0);
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
+EmitterCell TunnelLamp(double x)
+{
+  return Plate({ x, 0.5, 1.0 }, { 0, 0, -1 }, { 1, 0, 0 }, 0.2, 0.2, 1.0);
+}
+
+//--------------------------------------------------------------------------------------------------
+Slab MakeSlab(double opticalDepth, double albedo, int layers)
+{
+  // Light that reaches the middle from beyond the margin has crossed eight mean free paths of smoke,
+  // or leaked through the faces for twice the thickness: less than 1e-3 of the fluence.
+  const double margin = 8.0 / opticalDepth + 2.0;
+  const double half = 2.5 * margin;
+  constexpr int Across = 20;
+  Slab slab;
+  slab.Layers = layers;
+  SceneDescription& scene = slab.Description;
+  scene.Albedo = albedo;
+  scene.Grids.push_back(
+    UniformSmoke({ -half, -half, 0 }, { half, half, 1 }, { Across, Across, layers }, opticalDepth));
+  const Vec3 u(2.0 * half, 0, 0);
+  const Vec3 v(0, 2.0 * half, 0);
+  AddRectangle(scene.Surfaces, { -half, -half, 1 }, v, u, Across, Across, 0.0);
+  scene.Emitters = EmittingRectangle({ -half, -half, 0 }, u, v, Across, Across, 1.0 / Pi, 0.0);
+
+  // 12 of 20 cells are nearer to the middle than 0.6 of the half width.
+  slab.MiddleCells.resize(static_cast<std::size_t>(layers));
+  for (int j = 4; j < 16; ++j)
+  {
+    for (int i = 4; i < 16; ++i)
+    {
+      const int flat = i + Across * j;
+      for (int layer = 0; layer < layers; ++layer)
+      {
+        slab.MiddleCells[static_cast<std::size_t>(layer)].push_back(
+          flat + static_cast<std::int64_t>(Across) * Across * layer);
+      }
+      slab.FarPatches.push_back(static_cast<std::size_t>(flat));
+      slab.NearPatches.push_back(static_cast<std::size_t>(Across * Across + flat));
+    }
+  }
+  return slab;
+}
+
+//--------------------------------------------------------------------------------------------------
+RandomRoom MakeRandomRoom(std::uint64_t seed)
+{
+  Pcg32 random(seed, 7);
+  const auto between = [&](double low, double high)
+  { return low + (high - low) * random.Uniform(); };
+  RandomRoom room;
+  SceneDescription& scene = room.Description;
+  const Vec3 upper(between(3.0, 5.0), between(2.0, 3.0), between(2.2, 2.8));
+  scene.Albedo = between(0.2, 0.95);
+  const double extinction = between(0.2, 1.2);
+  scene.Grids.push_back(NoisySmoke(Vec3(0.0), upper, { 20, 12, 12 }, 0.2 * extinction,
+    1.8 * extinction, seed));
+  AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, between(0.05, 0.7));
+  const Vec3 block(between(1.0, 2.0), between(0.2, 1.0), 0.0);
+  AddBlock(scene.Surfaces, block, block + Vec3(0.6, 0.5, between(0.5, 1.2)), 0.25,
+    between(0.05, 0.7));
+  const Vec3 sign(upper.x, between(0.6, upper.y - 0.6), between(1.5, 2.0));
+  scene.Emitters = Barcode(sign, { -1, 0, 0 }, { 0, 0, 1 }, between(0.2, 0.5), between(0.15, 0.3),
+    2 * static_cast<int>(between(1.0, 4.0)) + 1, 100.0, 0, between(0.0, 0.3));
+  const int lamps = static_cast<int>(between(0.0, 2.999));
+  for (int lamp = 0; lamp < lamps; ++lamp)
+  {
+    scene.Emitters.push_back(
+      Plate({ between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1 },
+        { 0, 0, -1 }, { 1, 0, 0 }, 0.3, 0.3, between(2.0, 20.0), 0.5));
+  }
+  room.Eye = { between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8) };
+  return room;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription Scaled(SceneDescription description, double factor)
+{
+  for (SmokeGrid& grid : description.Grids)
+  {
+    for (std::vector<double>& nodes : grid.Nodes)
+    {
+      std::for_each(nodes.begin(), nodes.end(), [&](double& node) { node *= factor; });
+    }
+    for (float& extinction : grid.Extinction)
+    {
+      extinction = static_cast<float>(extinction / factor);
+    }
+  }
+  for (Vec3& point : description.Surfaces.Points)
+  {
+    point *= factor;
+  }
+  for (EmitterCell& cell : description.Emitters)
+  {
+    std::for_each(
+      cell.Vertices.begin(), cell.Vertices.end(), [&](Vec3& vertex) { vertex *= factor; });
+  }
+  return description;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription Moved(SceneDescription description, const Vec3& offset)
+{
+  for (SmokeGrid& grid : description.Grids)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::for_each(grid.Nodes[axis].begin(), grid.Nodes[axis].end(),
+        [&](double& node) { node += offset[axis]; });
+    }
+  }
+  for (Vec3& point : description.Surfaces.Points)
+  {
+    point += offset;
+  }
+  for (EmitterCell& cell : description.Emitters)
+  {
+    std::for_each(
+      cell.Vertices.begin(), cell.Vertices.end(), [&](Vec3& vertex) { vertex += offset; });
+  }
+  return description;
+}
+
+} // namespace smokevis::scenes

@@ -1,0 +1,98 @@
+// The scenes that tests are about, and the pieces they are put together from.
+#pragma once
+
+#include "Scene.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace smokevis::scenes
+{
+
+/// Adds a plane rectangle of nu x nv cells (two triangles each); its front is the side of
+/// cross(edgeU, edgeV). Returns the index of its first cell; cells follow with u fastest.
+std::size_t AddRectangle(SurfaceMesh& mesh, const Vec3& corner, const Vec3& edgeU,
+  const Vec3& edgeV, int nu, int nv, double reflectance);
+
+/// Adds the six walls of a box, fronts inwards, in cells no larger than a patch size. The walls
+/// follow each other as low x, high x, low y, high y, low z, high z.
+void AddRoom(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
+  double reflectance);
+
+/// Adds the six faces of a solid box, fronts outwards.
+void AddBlock(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
+  double reflectance);
+
+/// Evenly spaced numbers, both ends included.
+std::vector<double> Linear(double first, double last, int intervals);
+
+SmokeGrid UniformSmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
+  double extinction);
+
+/// Extinction uniformly random between two bounds in each cell.
+SmokeGrid NoisySmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
+  double low, double high, std::uint64_t seed);
+
+/// The parts of a grid on the low and high side of one of its nodes.
+std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node);
+
+/// A rectangle that emits towards its normal.
+EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double width,
+  double height, double luminance, double reflectance = 0.0, int signId = -1);
+
+/// A sign of vertical stripes of equal width, every other one lit, beginning with a lit one.
+std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
+  double width, double height, int bars, double luminance, int signId, double reflectance = 0.0);
+
+/// A rectangle of nu x nv emitting cells; its front is the side of cross(edgeU, edgeV).
+std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
+  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance);
+
+/// The six walls of a box as emitters that face inwards, n x n cells each.
+std::vector<EmitterCell> EmittingRoom(
+  const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance);
+
+/// Triangles of an icosahedron whose faces were cut in four so many times, around a centre. The
+/// corners lie outside the given radius such that the enclosed volume is the sphere's.
+std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int cuts, bool inwards,
+  double luminance, double reflectance);
+
+/// The tunnel: a closed box of 4 x 1 x 1 m with walls of reflectance 0.2, uniform smoke in
+/// 40 x 10 x 10 cells and a sign of nine stripes (five lit, luminance 1) 0.3 m square on the end wall.
+SceneDescription Tunnel(double extinction, double albedo);
+/// Where the observer of the tunnel stands.
+inline const Vec3 TunnelEye{ 0.001, 0.5, 0.5 };
+/// A lamp of 0.2 x 0.2 m and luminance 1 under the tunnel's ceiling.
+EmitterCell TunnelLamp(double x);
+
+/// A slab between z = 0 (emitting black wall of luminance 1/pi, so that the incident illuminance is
+/// 1) and z = 1 (black patches), open at its sides. Cells with |x| and |y| below `core` metres are
+/// those to look at; all is wide enough for the sides not to matter there.
+struct Slab
+{
+  SceneDescription Description;
+  /// Layers of cells between the walls.
+  int Layers;
+  /// Cells of each layer that lie in the middle: [layer][...].
+  std::vector<std::vector<std::int64_t>> MiddleCells;
+  /// Patches in the middle of the black wall and of the emitting wall.
+  std::vector<std::size_t> FarPatches, NearPatches;
+};
+Slab MakeSlab(double opticalDepth, double albedo, int layers);
+
+/// A room with noisy smoke, one or two lamps, a block and a sign, all drawn at random.
+struct RandomRoom
+{
+  SceneDescription Description;
+  Vec3 Eye;
+};
+RandomRoom MakeRandomRoom(std::uint64_t seed);
+
+/// Multiplies all lengths by a factor and divides extinctions by it.
+SceneDescription Scaled(SceneDescription description, double factor);
+/// Moves everything.
+SceneDescription Moved(SceneDescription description, const Vec3& offset);
+
+} // namespace smokevis::scenes

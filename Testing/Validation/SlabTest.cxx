@@ -1,0 +1,122 @@
+// Plane-parallel smoke under diffuse light: reflectance, transmittance, fluence and absorption.
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Layers so thin that a flat source inside each errs by less than 1e-3 (its error is second order in
+/// the layer's optical thickness, and next to the walls the fluence falls steeply).
+int LayersFor(double opticalDepth)
+{
+  return std::max(15, 2 * static_cast<int>(std::ceil(5.0 * opticalDepth)) + 1);
+}
+
+void CheckRow(const report::ReferenceTable& table, std::size_t row, double tolerance)
+{
+  const double depth = table.Number(row, "tau0");
+  const double albedo = table.Number(row, "omega");
+  const scenes::Slab slab = scenes::MakeSlab(depth, albedo, LayersFor(depth));
+  const Solved solved(slab.Description);
+  const Estimate through = solved.Illuminance(slab.FarPatches, 0);
+  const Estimate back = solved.Illuminance(slab.NearPatches, 0);
+  const Estimate middle =
+    solved.Fluence(slab.MiddleCells[static_cast<std::size_t>(slab.Layers / 2)]);
+  std::vector<std::int64_t> all;
+  for (const std::vector<std::int64_t>& layer : slab.MiddleCells)
+  {
+    all.insert(all.end(), layer.begin(), layer.end());
+  }
+  const Estimate mean = solved.Fluence(all);
+  const std::string name =
+    "depth " + table.Text(row, "tau0") + " albedo " + table.Text(row, "omega");
+  report::Relative(
+    name + " T", table.Number(row, "T"), through.Mean, tolerance, through.StandardError);
+  // A reflectance near zero (black smoke) is compared with the light that falls in.
+  report::Absolute(name + " R", table.Number(row, "R"), back.Mean,
+    tolerance * std::max(0.1, table.Number(row, "R")), back.StandardError);
+  report::Relative(
+    name + " Gmid", table.Number(row, "Gmid"), middle.Mean, tolerance, middle.StandardError);
+  const double absorbed = (1.0 - albedo) * depth;
+  report::Absolute(name + " absorbed", table.Number(row, "absorbed"), absorbed * mean.Mean,
+    tolerance * std::max(0.1, table.Number(row, "absorbed")), absorbed * mean.StandardError);
+}
+
+void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albedos)
+{
+  report::Head("Slab under diffuse light");
+  const report::ReferenceTable table("slab_reflectance_transmittance.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    const double depth = table.Number(row, "tau0");
+    const double albedo = table.Number(row, "omega");
+    if (table.Text(row, "incidence") == "diffuse" && depth >= depthFrom && depth <= depthTo &&
+      std::find(albedos.begin(), albedos.end(), albedo) != albedos.end())
+    {
+      CheckRow(table, row, 0.01);
+    }
+  }
+}
+
+TEST(Slab, DepthOne)
+{
+  CheckRows(1.0, 1.0, { 0.5, 0.9 });
+}
+
+TEST(Slab, ThinLong)
+{
+  CheckRows(0.1, 0.5, { 0.2, 0.9, 1.0 });
+}
+
+TEST(Slab, ThickLong)
+{
+  CheckRows(1.0, 10.0, { 0.2, 0.8, 0.99, 1.0 });
+}
+
+/// Conservative slab between black plates: flux, and G / 4 at a quarter of the depth.
+void CheckEquilibrium(const std::vector<double>& depths, double tolerance)
+{
+  report::Head("Slab in radiative equilibrium");
+  const report::ReferenceTable table("slab_radiative_equilibrium.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    const double depth = table.Number(row, "tau0");
+    if (std::find(depths.begin(), depths.end(), depth) == depths.end())
+    {
+      continue;
+    }
+    // A quarter of the depth is then a face between two layers, whose mean is taken.
+    const int layers = 4 * std::max(4, static_cast<int>(std::ceil(2.5 * depth)));
+    const scenes::Slab slab = scenes::MakeSlab(depth, 1.0, layers);
+    const Solved solved(slab.Description);
+    const Estimate flux = solved.Illuminance(slab.FarPatches, 0);
+    std::vector<std::int64_t> quarter = slab.MiddleCells[static_cast<std::size_t>(layers / 4)];
+    const auto& below = slab.MiddleCells[static_cast<std::size_t>(layers / 4 - 1)];
+    quarter.insert(quarter.end(), below.begin(), below.end());
+    std::vector<std::int64_t> middle = slab.MiddleCells[static_cast<std::size_t>(layers / 2)];
+    const auto& under = slab.MiddleCells[static_cast<std::size_t>(layers / 2 - 1)];
+    middle.insert(middle.end(), under.begin(), under.end());
+    const Estimate atQuarter = solved.Fluence(quarter);
+    const Estimate atMiddle = solved.Fluence(middle);
+    const std::string name = "depth " + table.Text(row, "tau0");
+    report::Relative(
+      name + " Q", table.Number(row, "Q"), flux.Mean, tolerance, flux.StandardError);
+    report::Relative(name + " phi quarter", table.Number(row, "phi_quarter"), atQuarter.Mean / 4.0,
+      tolerance, atQuarter.StandardError / 4.0);
+    report::Relative(
+      name + " phi middle", 0.5, atMiddle.Mean / 4.0, tolerance, atMiddle.StandardError / 4.0);
+  }
+}
+
+TEST(Slab, EquilibriumLong)
+{
+  CheckEquilibrium({ 0.5, 1.0, 2.0, 5.0 }, 0.01);
+}
+
+} // namespace
