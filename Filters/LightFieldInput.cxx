@@ -7,7 +7,6 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDataObjectTree.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -132,10 +131,9 @@ bool FieldNumber(vtkDataObject* lightField, const char* name, int component, dou
       return true;
     }
   }
-  auto* const tree = vtkDataObjectTree::SafeDownCast(lightField);
-  for (unsigned int i = 0; tree && i < tree->GetNumberOfChildren(); ++i)
+  for (const Child& child : Children(lightField))
   {
-    if (FieldNumber(tree->GetChild(i), name, component, value))
+    if (FieldNumber(child.Object, name, component, value))
     {
       return true;
     }

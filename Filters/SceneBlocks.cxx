@@ -13,7 +13,10 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSet.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkUnsignedCharArray.h>
@@ -38,23 +41,20 @@ void ForEachLeaf(vtkDataObject* object, const std::string& name, const LeafVisit
     visit(leaf, name);
     return;
   }
-  auto* const tree = vtkDataObjectTree::SafeDownCast(object);
-  if (!tree)
+  if (!vtkDataObjectTree::SafeDownCast(object))
   {
     throw Error("block '" + name + "'",
       std::string("a ") + object->GetClassName() +
         " is neither a data set nor a collection of them",
       "Give grids or surfaces, or collections of them");
   }
-  const unsigned int children = tree->GetNumberOfChildren();
-  for (unsigned int i = 0; i < children; ++i)
+  const std::vector<Child> children = Children(object);
+  for (std::size_t i = 0; i < children.size(); ++i)
   {
-    vtkInformation* const meta = tree->GetChildMetaData(i);
-    const bool named = meta && meta->Has(vtkCompositeDataSet::NAME());
-    ForEachLeaf(tree->GetChild(i),
-      named           ? std::string(meta->Get(vtkCompositeDataSet::NAME()))
-      : children == 1 ? name
-                      : name + "[" + std::to_string(i) + "]",
+    ForEachLeaf(children[i].Object,
+      children[i].Name         ? std::string(children[i].Name)
+        : children.size() == 1 ? name
+                               : name + "[" + std::to_string(i) + "]",
       visit);
   }
 }
@@ -200,16 +200,48 @@ std::vector<SurfaceBlock> CollectSurfaces(vtkDataObject* input, const std::strin
 }
 
 //------------------------------------------------------------------------------
+std::vector<Child> Children(vtkDataObject* object)
+{
+  std::vector<Child> children;
+  const auto add = [&](vtkDataObject* child, vtkInformation* meta)
+  {
+    const bool named = meta && meta->Has(vtkCompositeDataSet::NAME());
+    children.push_back({ child, named ? meta->Get(vtkCompositeDataSet::NAME()) : nullptr });
+  };
+  if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
+  {
+    for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+    {
+      add(blocks->GetBlock(i), blocks->HasMetaData(i) ? blocks->GetMetaData(i) : nullptr);
+    }
+  }
+  else if (auto* const collection = vtkPartitionedDataSetCollection::SafeDownCast(object))
+  {
+    for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      add(collection->GetPartitionedDataSet(i),
+        collection->HasMetaData(i) ? collection->GetMetaData(i) : nullptr);
+    }
+  }
+  else if (auto* const partitions = vtkPartitionedDataSet::SafeDownCast(object))
+  {
+    for (unsigned int i = 0; i < partitions->GetNumberOfPartitions(); ++i)
+    {
+      add(partitions->GetPartitionAsDataObject(i),
+        partitions->HasMetaData(i) ? partitions->GetMetaData(i) : nullptr);
+    }
+  }
+  return children;
+}
+
+//------------------------------------------------------------------------------
 vtkDataObject* FindBlock(vtkDataObject* collection, const std::string& name)
 {
-  auto* const tree = vtkDataObjectTree::SafeDownCast(collection);
-  for (unsigned int i = 0; tree && i < tree->GetNumberOfChildren(); ++i)
+  for (const Child& child : Children(collection))
   {
-    vtkInformation* const meta = tree->GetChildMetaData(i);
-    if (meta && meta->Has(vtkCompositeDataSet::NAME()) &&
-        name == meta->Get(vtkCompositeDataSet::NAME()))
+    if (child.Name && name == child.Name)
     {
-      return tree->GetChild(i);
+      return child.Object;
     }
   }
   return nullptr;

@@ -46,6 +46,17 @@ std::vector<SmokeBlock> CollectSmoke(vtkDataObject* input, const std::string& na
 /// out.
 std::vector<SurfaceBlock> CollectSurfaces(vtkDataObject* input, const std::string& name);
 
+/// A member of a collection and its name, null where it has none.
+struct Child
+{
+  vtkDataObject* Object;
+  const char* Name;
+};
+
+/// The members of a multiblock, a partitioned data set or a collection of those, one level down;
+/// nothing for any other object.
+std::vector<Child> Children(vtkDataObject* object);
+
 /// Child of a collection by name, or null.
 vtkDataObject* FindBlock(vtkDataObject* collection, const std::string& name);
 

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "SignPlate.h"
 
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
