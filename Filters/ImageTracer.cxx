@@ -161,7 +161,7 @@ private:
     for (int band = 0; band < this->Bands_; ++band)
     {
       const RayLight veil =
-        this->View_.TraceVeil(this->Camera_.Position, direction, hit.Distance, band);
+        this->View_.TraceVeil(this->Camera_.Position, direction, 0.0, hit.Distance, band);
       light[band].Add(veil, 1.0);
       transmittance[band] = std::exp(-veil.OpticalDepth);
     }
