@@ -49,6 +49,14 @@ public:
 
   ///@{
   /**
+   * Disconnect all inputs of one kind.
+   */
+  void RemoveAllSurfaces() { this->SetInputConnection(1, nullptr); }
+  void RemoveAllEmitters() { this->SetInputConnection(2, nullptr); }
+  ///@}
+
+  ///@{
+  /**
    * Single-scattering albedo of the smoke, 0 to 1. Below 0: the field data `Albedo` of the smoke,
    * which the FDS reader fills from the run, else 0.3. Default: -1.
    */
