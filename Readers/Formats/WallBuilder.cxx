@@ -457,13 +457,9 @@ int WallBuilder::FaceMaterial(
       return None;
     }
   }
-  if (obstruction != None)
+  if (behind.Solid && behind.Block != plane.Block)
   {
-    return this->MaterialOf(own.Mesh->Obstructions[obstruction], plane.Axis, positive);
-  }
-  if (behind.Block != None)
-  {
-    // The solid is another mesh's, and this mesh does not list it as touching.
+    // The mesh that the solid belongs to knows best what it is.
     const Block& other = blocks_[behind.Block];
     for (auto i = other.Obstructions.rbegin(); i != other.Obstructions.rend(); ++i)
     {
@@ -479,6 +475,10 @@ int WallBuilder::FaceMaterial(
         return this->MaterialOf(solid, plane.Axis, positive);
       }
     }
+  }
+  if (obstruction != None)
+  {
+    return this->MaterialOf(own.Mesh->Obstructions[obstruction], plane.Axis, positive);
   }
   return this->MaterialOf(index_.DefaultSurface(), nullptr);
 }
