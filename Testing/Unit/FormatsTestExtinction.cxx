@@ -23,7 +23,7 @@ constexpr double C = 3.0;
 class OneMeshRun : public testing::Test
 {
 protected:
-  OneMeshRun() { index_.Mesh("m", { 2, 1, 1 }, { 0, 0, 0 }, { 2, 1, 1 }); }
+  OneMeshRun() { index_.Mesh("m", {2, 1, 1}, {0, 0, 0}, {2, 1, 1}); }
 
   // Adds a cell-centred 3-D slice with these two cells, constant in time.
   void AddCells(const std::string& file, const std::string& label, float first, float second)
@@ -32,8 +32,9 @@ protected:
     std::vector<float> stored(12, ghost);
     stored[10] = first;
     stored[11] = second;
-    folder_.Write(file, test::SliceBytes(label, { 0, 2, 0, 1, 0, 1 }, { { 0.0F, stored }, { 1.0F, stored } }));
-    index_.Slice(true, 1, { 0, 2, 0, 1, 0, 1 }, file, label);
+    folder_.Write(
+      file, test::SliceBytes(label, {0, 2, 0, 1, 0, 1}, {{0.0F, stored}, {1.0F, stored}}));
+    index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, file, label);
   }
 
   // Adds a node-centred 3-D slice whose nodes have the values of their x index.
@@ -44,8 +45,9 @@ protected:
     {
       stored.insert(stored.end(), x.begin(), x.end());
     }
-    folder_.Write(file, test::SliceBytes(label, { 0, 2, 0, 1, 0, 1 }, { { 0.0F, stored }, { 1.0F, stored } }));
-    index_.Slice(false, 1, { 0, 2, 0, 1, 0, 1 }, file, label);
+    folder_.Write(
+      file, test::SliceBytes(label, {0, 2, 0, 1, 0, 1}, {{0.0F, stored}, {1.0F, stored}}));
+    index_.Slice(false, 1, {0, 2, 0, 1, 0, 1}, file, label);
   }
 
   const SmvFile& Run()
@@ -73,7 +75,7 @@ protected:
     return "none";
   }
 
-  test::Folder folder_{ "extinction" };
+  test::Folder folder_{"extinction"};
   test::Index index_;
   std::unique_ptr<SmvFile> run_;
 };
@@ -82,7 +84,7 @@ protected:
 
 TEST_F(OneMeshRun, PrefersCellsOfExtinction)
 {
-  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", { 4, 5, 6 });
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {4, 5, 6});
   this->AddCells("d.sf", "SOOT DENSITY", 1, 1);
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 0.75);
   ExtinctionSource source(this->Run(), C);
@@ -98,7 +100,7 @@ TEST_F(OneMeshRun, PrefersCellsOfExtinction)
 
 TEST_F(OneMeshRun, AveragesTheNodesOfACell)
 {
-  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", { 1, 2, 4 });
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 2, 4});
   EXPECT_THAT(this->Read(), ElementsAre(1.5, 3.0));
 }
 
@@ -135,7 +137,7 @@ TEST_F(OneMeshRun, TakesTheMostSmokeThatACappedVisibilityAllows)
 TEST_F(OneMeshRun, AddsSpecies)
 {
   this->AddCells("a.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 1);
-  this->AddNodes("b.sf", "MY SMOKE EXTINCTION COEFFICIENT", { 1, 1, 1 });
+  this->AddNodes("b.sf", "MY SMOKE EXTINCTION COEFFICIENT", {1, 1, 1});
   this->AddCells("c.sf", "EXTINCTION COEFFICIENT", 100, 100); // the sum of the two, not a third
   EXPECT_THAT(this->Read(), ElementsAre(1.5, 2.0));
 }
@@ -146,9 +148,9 @@ TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
   {
     std::vector<float> stored(8, -7.0F);
     stored[7] = value;
-    const std::array<int, 6> range{ cell, cell + 1, 0, 1, 0, 1 };
+    const std::array<int, 6> range{cell, cell + 1, 0, 1, 0, 1};
     folder_.Write(file, test::SliceBytes("SOOT EXTINCTION COEFFICIENT",
-                          { range.begin(), range.end() }, { { 0.0F, stored } }));
+                          {range.begin(), range.end()}, {{0.0F, stored}}));
     index_.Slice(true, 1, range, file, "SOOT EXTINCTION COEFFICIENT");
   };
   part("a.sf", 1, 2.0F);
@@ -164,9 +166,10 @@ TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
 TEST_F(OneMeshRun, PrefersTheWholeMeshToABetterPart)
 {
   std::vector<float> stored(8, 9.0F);
-  folder_.Write("p.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", { 0, 1, 0, 1, 0, 1 }, { { 0.0F, stored } }));
-  index_.Slice(true, 1, { 0, 1, 0, 1, 0, 1 }, "p.sf", "SOOT EXTINCTION COEFFICIENT");
-  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", { 1, 1, 1 });
+  folder_.Write(
+    "p.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1}, {{0.0F, stored}}));
+  index_.Slice(true, 1, {0, 1, 0, 1, 0, 1}, "p.sf", "SOOT EXTINCTION COEFFICIENT");
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 1, 1});
   EXPECT_THAT(this->Read(), ElementsAre(1.0, 1.0));
 }
 
@@ -174,7 +177,7 @@ TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
 {
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", std::numeric_limits<float>::quiet_NaN(), 2);
   ExtinctionSource source(this->Run(), C);
-  EXPECT_THAT(source.Read(0, 0.0, { 1, 0 }).Values, ElementsAre(0.0F, 2.0F));
+  EXPECT_THAT(source.Read(0, 0.0, {1, 0}).Values, ElementsAre(0.0F, 2.0F));
 }
 
 TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
@@ -190,23 +193,25 @@ TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
 
 TEST_F(OneMeshRun, TellsWhatToAskFdsFor)
 {
-  index_.Slice(false, 1, { 0, 2, 0, 1, 0, 0 }, "t.sf", "TEMPERATURE");
+  index_.Slice(false, 1, {0, 2, 0, 1, 0, 0}, "t.sf", "TEMPERATURE");
   EXPECT_THAT(this->Problem(), HasSubstr("2-D slice of TEMPERATURE"));
   EXPECT_THAT(this->Problem(), HasSubstr("&SLCF"));
 }
 
 TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
 {
-  index_.Slice(true, 1, { 0, 2, 0, 1, 0, 1 }, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
   EXPECT_THAT(this->Problem(), HasSubstr("gone.sf: the file cannot be opened"));
-  folder_.Write("gone.sf", test::SliceBytes("A", { 0, 1, 0, 1, 0, 1 }, { { 0.0F, std::vector<float>(8) } }));
+  folder_.Write(
+    "gone.sf", test::SliceBytes("A", {0, 1, 0, 1, 0, 1}, {{0.0F, std::vector<float>(8)}}));
   EXPECT_THAT(this->Problem(), HasSubstr("index range is not the one"));
 }
 
 TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
 {
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
-  std::filesystem::resize_file(folder_.Path("k.sf"), std::filesystem::file_size(folder_.Path("k.sf")) - 3);
+  std::filesystem::resize_file(
+    folder_.Path("k.sf"), std::filesystem::file_size(folder_.Path("k.sf")) - 3);
   ExtinctionSource source(this->Run(), C);
   EXPECT_THAT(source.Times(), ElementsAre(0.0));
   ASSERT_EQ(source.Warnings().size(), 1U);
@@ -216,15 +221,15 @@ TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
 
 TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
 {
-  index_.Mesh("other", { 1, 1, 1 }, { 2, 0, 0 }, { 3, 1, 1 });
+  index_.Mesh("other", {1, 1, 1}, {2, 0, 0}, {3, 1, 1});
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
   ExtinctionSource bare(this->Run(), C);
   ASSERT_EQ(bare.Warnings().size(), 1U);
   EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D slice"));
   EXPECT_THAT(bare.Read(1, 0.0, {}).Values, ElementsAre(0.0F));
-  folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", { 0, 1, 0, 1, 0, 1 },
-                          { { 0.0F, std::vector<float>(8, 5.0F) } }));
-  index_.Slice(true, 2, { 0, 1, 0, 1, 0, 1 }, "o.sf", "SOOT EXTINCTION COEFFICIENT");
+  folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
+                          {{0.0F, std::vector<float>(8, 5.0F)}}));
+  index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "o.sf", "SOOT EXTINCTION COEFFICIENT");
   ExtinctionSource both(this->Run(), C);
   EXPECT_EQ(both.Read(0, 1.0, {}).Time, 1.0);
   EXPECT_EQ(both.Read(1, 1.0, {}).Time, 0.0);
@@ -234,9 +239,9 @@ TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
 {
   const std::vector<float> first(12, 1.0F);
   const std::vector<float> second(12, 2.0F);
-  folder_.Write("r.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", { 0, 2, 0, 1, 0, 1 },
-                          { { 0.0F, first }, { 1.0F, first }, { 0.0F, second } }));
-  index_.Slice(true, 1, { 0, 2, 0, 1, 0, 1 }, "r.sf", "SOOT EXTINCTION COEFFICIENT");
+  folder_.Write("r.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
+                          {{0.0F, first}, {1.0F, first}, {0.0F, second}}));
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "r.sf", "SOOT EXTINCTION COEFFICIENT");
   ExtinctionSource source(this->Run(), C);
   EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
   EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(2.0F, 2.0F));

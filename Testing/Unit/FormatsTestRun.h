@@ -18,8 +18,8 @@ class Folder
 {
 public:
   explicit Folder(const std::string& name)
-    : path_(std::filesystem::temp_directory_path() /
-        ("smokevis-" + name + "-" + std::to_string(::getpid())))
+      : path_(std::filesystem::temp_directory_path() /
+              ("smokevis-" + name + "-" + std::to_string(::getpid())))
   {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -46,10 +46,7 @@ private:
 class Records
 {
 public:
-  explicit Records(bool swapped = false)
-    : swapped_(swapped)
-  {
-  }
+  explicit Records(bool swapped = false) : swapped_(swapped) {}
 
   template <class T> Records& Add(const std::vector<T>& values)
   {
@@ -90,7 +87,7 @@ inline std::string SliceBytes(const std::string& label, const std::vector<int>& 
   records.AddLabel(label).AddLabel("short").AddLabel("1/m").Add(range);
   for (const auto& [time, values] : frames)
   {
-    records.Add(std::vector<float>{ time }).Add(values);
+    records.Add(std::vector<float>{time}).Add(values);
   }
   return records.Bytes();
 }
@@ -137,7 +134,8 @@ public:
     text_ << " 0 0 0 0 0 0\n\nPDIM\n 0.0 1.0 0.0 1.0 0.0 1.0 0.0 0.0 0.0\n\n";
     for (int axis = 0; axis < 3; ++axis)
     {
-      text_ << "TRN" << "XYZ"[axis] << "\n 0\n";
+      text_ << "TRN"
+            << "XYZ"[axis] << "\n 0\n";
       for (int i = 0; i <= cells[axis]; ++i)
       {
         text_ << " " << i << " " << low[axis] + (high[axis] - low[axis]) * i / cells[axis] << "\n";
@@ -147,7 +145,8 @@ public:
     return *this;
   }
 
-  Index& Obstruction(const std::array<int, 6>& range, int surface, const std::string& color = "-1 -1")
+  Index& Obstruction(
+    const std::array<int, 6>& range, int surface, const std::string& color = "-1 -1")
   {
     bounds_.push_back("0. 1. 0. 1. 0. 1. 1" + this->Six(surface) + " ! block");
     indices_.push_back(this->Join(range) + " " + color + " ! F 1 1 1 1 1 1");
@@ -173,8 +172,9 @@ public:
     const std::string& label)
   {
     this->Flush();
-    text_ << (cellCentred ? "SLCC" : "SLCF") << "     " << mesh << " # STRUCTURED &" << this->Join(range)
-          << " !      1      1      0\n " << file << "\n " << label << "\n short\n 1/m\n";
+    text_ << (cellCentred ? "SLCC" : "SLCF") << "     " << mesh << " # STRUCTURED &"
+          << this->Join(range) << " !      1      1      0\n " << file << "\n " << label
+          << "\n short\n 1/m\n";
     return *this;
   }
 
@@ -224,11 +224,11 @@ private:
     this->Entry("VENT", " 0", ventBounds_, ventIndices_);
   }
 
-  void Entry(const std::string& keyword, const std::string& second,
-    std::vector<std::string>& first, std::vector<std::string>& then)
+  void Entry(const std::string& keyword, const std::string& second, std::vector<std::string>& first,
+    std::vector<std::string>& then)
   {
     text_ << keyword << "\n " << first.size() << second << "\n";
-    for (std::vector<std::string>* lines : { &first, &then })
+    for (std::vector<std::string>* lines : {&first, &then})
     {
       for (const std::string& line : *lines)
       {

@@ -10,7 +10,8 @@ namespace smokevis
 
 TEST(SplitNumbers, ReadsFieldsWithBlanks)
 {
-  EXPECT_THAT(SplitNumbers("  12.5  -3 1.0E-03 +4.25 6.D2\r"), ElementsAre(12.5, -3, 1e-3, 4.25, 600));
+  EXPECT_THAT(
+    SplitNumbers("  12.5  -3 1.0E-03 +4.25 6.D2\r"), ElementsAre(12.5, -3, 1e-3, 4.25, 600));
 }
 
 TEST(SplitNumbers, TakesFixedDecimalsApart)

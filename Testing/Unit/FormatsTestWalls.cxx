@@ -23,10 +23,8 @@ class Walls
 {
 public:
   explicit Walls(Index& index, double time = 0.0, double leastOpacity = 0.5)
-    : folder_("walls")
-    , run_(folder_.Write("test.smv", index.Bytes()))
-    , builder_(run_, time, leastOpacity)
-    , quads_(builder_.Build())
+      : folder_("walls"), run_(folder_.Write("test.smv", index.Bytes())),
+        builder_(run_, time, leastOpacity), quads_(builder_.Build())
   {
   }
 
@@ -59,7 +57,7 @@ public:
     for (const WallQuad& quad : quads_)
     {
       const bool here = quad.Axis == axis && quad.Positive == positive &&
-        std::abs(quad.Low[axis] - coordinate) < 1e-9;
+                        std::abs(quad.Low[axis] - coordinate) < 1e-9;
       area += here ? Area(quad) : 0.0;
     }
     return area;
@@ -86,7 +84,7 @@ private:
 Index Room()
 {
   Index index;
-  index.Mesh("m", { 4, 3, 2 }, { 0, 0, 0 }, { 4, 3, 2 });
+  index.Mesh("m", {4, 3, 2}, {0, 0, 0}, {4, 3, 2});
   return index;
 }
 
@@ -96,12 +94,12 @@ TEST(WallQuad, CornersTurnCounterClockwiseSeenFromTheGas)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (const bool positive : { false, true })
+    for (const bool positive : {false, true})
     {
       WallQuad quad;
       quad.Axis = axis;
       quad.Positive = positive;
-      quad.High = { 1, 1, 1 };
+      quad.High = {1, 1, 1};
       quad.High[axis] = 0;
       const auto c = quad.Corners();
       const int b = (axis + 1) % 3;
@@ -127,7 +125,7 @@ TEST(Walls, AClosedRoomIsSixQuadsInwards)
 TEST(Walls, ABlockCoversTheFloorUnderIt)
 {
   Index index = Room();
-  index.Obstruction({ 1, 3, 1, 2, 0, 1 }, Index::Paint);
+  index.Obstruction({1, 3, 1, 2, 0, 1}, Index::Paint);
   const Walls walls(index);
   EXPECT_EQ(walls.Area("PAINT"), 2 + 2 * (2 + 1)); // top and four sides of 2 x 1 x 1
   EXPECT_EQ(walls.Area("WALL"), 52 - 2);
@@ -137,20 +135,23 @@ TEST(Walls, ABlockCoversTheFloorUnderIt)
 TEST(Walls, TouchingBlocksShareNoFace)
 {
   Index index = Room();
-  index.Obstruction({ 1, 2, 1, 2, 0, 1 }, Index::Paint);
-  index.Obstruction({ 2, 3, 1, 2, 0, 1 }, Index::Paint);
+  index.Obstruction({1, 2, 1, 2, 0, 1}, Index::Paint);
+  index.Obstruction({2, 3, 1, 2, 0, 1}, Index::Paint);
   const Walls walls(index);
   EXPECT_EQ(walls.Area("PAINT"), 8.0);
   // The two blocks' equal faces merge: top, two long sides, two ends.
   EXPECT_EQ(std::count_if(walls.Quads().begin(), walls.Quads().end(),
-              [](const WallQuad& q) { return q.Low[0] >= 1 && q.High[0] <= 3 && q.High[2] <= 1 && q.Low[1] >= 1 && q.High[1] <= 2; }),
+              [](const WallQuad& q) {
+                return q.Low[0] >= 1 && q.High[0] <= 3 && q.High[2] <= 1 && q.Low[1] >= 1 &&
+                       q.High[1] <= 2;
+              }),
     5);
 }
 
 TEST(Walls, ThePlateIsOneQuad)
 {
   Index index = Room();
-  index.Obstruction({ 2, 2, 0, 2, 0, 1 }, Index::Paint);
+  index.Obstruction({2, 2, 0, 2, 0, 1}, Index::Paint);
   const Walls walls(index);
   EXPECT_EQ(walls.Area("PAINT"), 2.0);
   EXPECT_EQ(walls.AreaAt(0, true, 2.0) + walls.AreaAt(0, false, 2.0), 2.0);
@@ -159,10 +160,10 @@ TEST(Walls, ThePlateIsOneQuad)
 TEST(Walls, APlateInASolidsFaceOrWithoutAreaIsNotSeenTwice)
 {
   Index index = Room();
-  index.Obstruction({ 0, 2, 0, 3, 0, 2 }, Index::Wall);
-  index.Obstruction({ 2, 2, 0, 3, 0, 1 }, Index::Paint); // covers half of the block's side
-  index.Obstruction({ 1, 1, 0, 3, 0, 1 }, Index::Paint); // inside the block
-  index.Obstruction({ 3, 3, 0, 3, 1, 1 }, Index::Paint); // a line
+  index.Obstruction({0, 2, 0, 3, 0, 2}, Index::Wall);
+  index.Obstruction({2, 2, 0, 3, 0, 1}, Index::Paint); // covers half of the block's side
+  index.Obstruction({1, 1, 0, 3, 0, 1}, Index::Paint); // inside the block
+  index.Obstruction({3, 3, 0, 3, 1, 1}, Index::Paint); // a line
   const Walls walls(index);
   EXPECT_EQ(walls.Area("PAINT"), 3.0);
   EXPECT_EQ(walls.AreaAt(0, true, 2.0), 6.0);
@@ -173,10 +174,10 @@ TEST(Walls, APlateInASolidsFaceOrWithoutAreaIsNotSeenTwice)
 TEST(Walls, OpeningsAreOpenAndVentsPaint)
 {
   Index index = Room();
-  index.Vent({ 0, 0, 0, 3, 0, 1 }, Index::Open, 1);
-  index.Vent({ 1, 2, 1, 2, 0, 0 }, Index::Paint, 3);
-  index.Vent({ 0, 4, 0, 3, 0, 0 }, Index::Wall, 3);  // the first vent on a face holds
-  index.Vent({ 4, 4, 0, 3, 0, 1 }, Index::Paint, 1); // faces outwards: not seen
+  index.Vent({0, 0, 0, 3, 0, 1}, Index::Open, 1);
+  index.Vent({1, 2, 1, 2, 0, 0}, Index::Paint, 3);
+  index.Vent({0, 4, 0, 3, 0, 0}, Index::Wall, 3);  // the first vent on a face holds
+  index.Vent({4, 4, 0, 3, 0, 1}, Index::Paint, 1); // faces outwards: not seen
   const Walls walls(index);
   EXPECT_EQ(walls.AreaAt(0, true, 0.0), 3.0);
   EXPECT_EQ(walls.Area("PAINT"), 1.0);
@@ -187,7 +188,7 @@ TEST(Walls, OpeningsAreOpenAndVentsPaint)
 TEST(Walls, AMirrorIsAWall)
 {
   Index index = Room();
-  index.Vent({ 0, 0, 0, 3, 0, 2 }, Index::Mirror, 1);
+  index.Vent({0, 0, 0, 3, 0, 2}, Index::Mirror, 1);
   const Walls walls(index);
   EXPECT_TRUE(walls.Builder().FoundMirror());
   EXPECT_EQ(walls.Area("MIRROR"), 6.0);
@@ -196,8 +197,8 @@ TEST(Walls, AMirrorIsAWall)
 TEST(Walls, ARoundVentTakesTheCellsWhoseCentreItHolds)
 {
   Index index;
-  index.Mesh("m", { 4, 4, 1 }, { 0, 0, 0 }, { 4, 4, 1 });
-  index.CircularVent({ 0, 4, 0, 4, 0, 0 }, Index::Paint, "2.0 2.0 0.0 1.0");
+  index.Mesh("m", {4, 4, 1}, {0, 0, 0}, {4, 4, 1});
+  index.CircularVent({0, 4, 0, 4, 0, 0}, Index::Paint, "2.0 2.0 0.0 1.0");
   const Walls walls(index);
   EXPECT_EQ(walls.Area("PAINT"), 4.0); // centres at 0.71 m from the middle; the next are at 1.58 m
 }
@@ -205,8 +206,8 @@ TEST(Walls, ARoundVentTakesTheCellsWhoseCentreItHolds)
 TEST(Walls, OpeningsOpenAndBlocksVanishInTime)
 {
   Index index = Room();
-  index.Obstruction({ 1, 3, 1, 2, 0, 1 }, Index::Paint);
-  index.Vent({ 0, 0, 0, 3, 0, 2 }, Index::Open, 1);
+  index.Obstruction({1, 3, 1, 2, 0, 1}, Index::Paint);
+  index.Vent({0, 0, 0, 3, 0, 2}, Index::Open, 1);
   index.Text("HIDE_OBST     1\n     1     15.0\nOPEN_VENT     1\n     1     20.0\n");
   EXPECT_EQ(Walls(index, 14.0).Area("PAINT"), 8.0);
   EXPECT_EQ(Walls(index, 15.0).Area("PAINT"), 0.0);
@@ -217,9 +218,9 @@ TEST(Walls, OpeningsOpenAndBlocksVanishInTime)
 TEST(Walls, LetLightThroughGlass)
 {
   Index index = Room();
-  index.Obstruction({ 2, 2, 0, 3, 0, 2 }, Index::Glass);
-  index.Obstruction({ 0, 1, 0, 1, 0, 1 }, Index::Wall, "-3 -1 0.0 0.0 1.0 0.2");
-  index.Obstruction({ 3, 4, 0, 1, 0, 1 }, Index::Wall, "-2 -1");
+  index.Obstruction({2, 2, 0, 3, 0, 2}, Index::Glass);
+  index.Obstruction({0, 1, 0, 1, 0, 1}, Index::Wall, "-3 -1 0.0 0.0 1.0 0.2");
+  index.Obstruction({3, 4, 0, 1, 0, 1}, Index::Wall, "-2 -1");
   EXPECT_EQ(Walls(index, 0.0, 0.5).Area(), 52.0);
   EXPECT_EQ(Walls(index, 0.0, 0.3).Area(), 52.0 + 6.0);
   // Each corner block hides three unit faces of the room and shows three of its own.
@@ -231,8 +232,8 @@ TEST(Walls, LetLightThroughGlass)
 TEST(Walls, HaveTheirOwnColour)
 {
   Index index;
-  index.Mesh("m", { 1, 1, 3 }, { 0, 0, 0 }, { 1, 1, 3 });
-  index.Obstruction({ 0, 1, 0, 1, 0, 1 }, Index::Paint, "-3 -1 0.25 0.5 0.75 1.0");
+  index.Mesh("m", {1, 1, 3}, {0, 0, 0}, {1, 1, 3});
+  index.Obstruction({0, 1, 0, 1, 0, 1}, Index::Paint, "-3 -1 0.25 0.5 0.75 1.0");
   const Walls walls(index);
   std::vector<std::array<double, 3>> colours;
   for (const WallQuad& quad : walls.Quads())
@@ -252,8 +253,8 @@ TEST(Walls, HaveTheirOwnColour)
 class TwoMeshes : public testing::Test
 {
 protected:
-  void Fine() { index_.Mesh("fine", { 4, 4, 4 }, { 2, 0, 0 }, { 4, 2, 2 }); }
-  void Coarse() { index_.Mesh("coarse", { 2, 2, 2 }, { 0, 0, 0 }, { 2, 2, 2 }); }
+  void Fine() { index_.Mesh("fine", {4, 4, 4}, {2, 0, 0}, {4, 2, 2}); }
+  void Coarse() { index_.Mesh("coarse", {2, 2, 2}, {0, 0, 0}, {2, 2, 2}); }
   Index index_;
 };
 
@@ -270,9 +271,9 @@ TEST_F(TwoMeshes, NothingIsBetweenThem)
 TEST_F(TwoMeshes, AWallAcrossBothHasNoFaceInside)
 {
   this->Coarse();
-  index_.Obstruction({ 1, 2, 0, 1, 0, 2 }, Index::Paint); // 1 <= x <= 2, y <= 1
+  index_.Obstruction({1, 2, 0, 1, 0, 2}, Index::Paint); // 1 <= x <= 2, y <= 1
   this->Fine();
-  index_.Obstruction({ 0, 2, 0, 2, 0, 4 }, Index::Paint); // 2 <= x <= 3, y <= 1
+  index_.Obstruction({0, 2, 0, 2, 0, 4}, Index::Paint); // 2 <= x <= 3, y <= 1
   const Walls walls(index_);
   EXPECT_EQ(walls.AreaAt(0, true, 2.0) + walls.AreaAt(0, false, 2.0), 0.0);
   EXPECT_EQ(walls.Area("PAINT"), 2 + 2 + 4);
@@ -283,7 +284,7 @@ TEST_F(TwoMeshes, TheFinerOneDecidesWhatPartOfAFaceIsWall)
 {
   this->Coarse();
   this->Fine();
-  index_.Obstruction({ 0, 2, 0, 1, 0, 4 }, Index::Paint); // y <= 0.5: half a coarse cell
+  index_.Obstruction({0, 2, 0, 1, 0, 4}, Index::Paint); // y <= 0.5: half a coarse cell
   const Walls walls(index_);
   EXPECT_EQ(walls.AreaAt(0, false, 2.0), 0.5 * 2);
   EXPECT_EQ(walls.Area("PAINT"), 1 + 2 + 1);
@@ -294,7 +295,7 @@ TEST_F(TwoMeshes, ASolidOfTheCoarseOneFacesTheFineOne)
 {
   this->Fine();
   this->Coarse();
-  index_.Obstruction({ 1, 2, 0, 1, 0, 2 }, Index::Paint);
+  index_.Obstruction({1, 2, 0, 1, 0, 2}, Index::Paint);
   const Walls walls(index_);
   EXPECT_EQ(walls.AreaAt(0, true, 2.0), 2.0);
   EXPECT_EQ(walls.AreaAt(0, false, 1.0), 2.0);
@@ -304,19 +305,19 @@ TEST_F(TwoMeshes, ASolidOfTheCoarseOneFacesTheFineOne)
 TEST_F(TwoMeshes, APlateBetweenThemIsOneQuad)
 {
   this->Coarse();
-  index_.Obstruction({ 2, 2, 0, 2, 0, 1 }, Index::Paint);
+  index_.Obstruction({2, 2, 0, 2, 0, 1}, Index::Paint);
   this->Fine();
-  index_.Obstruction({ 0, 0, 0, 4, 0, 2 }, Index::Paint);
+  index_.Obstruction({0, 0, 0, 4, 0, 2}, Index::Paint);
   const Walls walls(index_);
   EXPECT_EQ(walls.AreaAt(0, true, 2.0) + walls.AreaAt(0, false, 2.0), 2.0);
 }
 
 TEST_F(TwoMeshes, AFineMeshInsideACoarseOneOverrulesIt)
 {
-  index_.Mesh("around", { 4, 4, 4 }, { 0, 0, 0 }, { 4, 4, 4 });
-  index_.Obstruction({ 1, 3, 1, 3, 1, 2 }, Index::Inert); // inside the fine mesh: not believed
-  index_.Mesh("inside", { 4, 4, 4 }, { 1, 1, 1 }, { 3, 3, 3 });
-  index_.Obstruction({ 0, 4, 0, 4, 0, 1 }, Index::Paint); // a slab of 2 x 2 x 0.5
+  index_.Mesh("around", {4, 4, 4}, {0, 0, 0}, {4, 4, 4});
+  index_.Obstruction({1, 3, 1, 3, 1, 2}, Index::Inert); // inside the fine mesh: not believed
+  index_.Mesh("inside", {4, 4, 4}, {1, 1, 1}, {3, 3, 3});
+  index_.Obstruction({0, 4, 0, 4, 0, 1}, Index::Paint); // a slab of 2 x 2 x 0.5
   const Walls walls(index_);
   EXPECT_EQ(walls.Area("INERT"), 0.0);
   EXPECT_EQ(walls.Area("WALL"), 6 * 16.0);
@@ -328,17 +329,17 @@ TEST_F(TwoMeshes, AFineMeshInsideACoarseOneOverrulesIt)
 TEST(SolidCells, MarksBlocksButNotPlates)
 {
   Index index = Room();
-  index.Obstruction({ 1, 3, 1, 2, 0, 1 }, Index::Wall);
-  index.Obstruction({ 0, 0, 0, 3, 0, 2 }, Index::Wall);
+  index.Obstruction({1, 3, 1, 2, 0, 1}, Index::Wall);
+  index.Obstruction({0, 0, 0, 3, 0, 2}, Index::Wall);
   test::Folder folder("solid");
   const SmvFile run(folder.Write("test.smv", index.Bytes()));
-  const auto solid = SolidCells(run.Meshes[0], { 0, 1 });
+  const auto solid = SolidCells(run.Meshes[0], {0, 1});
   ASSERT_EQ(solid.size(), 24U);
   for (std::size_t cell = 0; cell < solid.size(); ++cell)
   {
     EXPECT_EQ(solid[cell], cell == 5 || cell == 6 ? 1 : 0) << cell;
   }
-  EXPECT_TRUE(SolidCells(run.Meshes[0], { 1 }).empty());
+  EXPECT_TRUE(SolidCells(run.Meshes[0], {1}).empty());
 }
 
 } // namespace smokevis
