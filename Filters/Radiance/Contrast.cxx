@@ -11,19 +11,10 @@ namespace
 
 /// Samples of the plate along its longer side, at least.
 constexpr double SamplesAcross = 8.0;
-/// Places across the plate where veil and optical depth are traced, and what lies between is
-/// interpolated: Gauss points, so that the plate's mean is exact for a polynomial of degree five.
-constexpr std::array<double, 3> Lattice = { 0.11270166537925831, 0.5, 0.88729833462074169 };
-
-/// Weights of the quadratic through the three lattice places.
-std::array<double, 3> Quadratic(double t)
-{
-  const double a = Lattice[0];
-  const double b = Lattice[1];
-  const double c = Lattice[2];
-  return { (t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
-    (t - a) * (t - b) / ((c - a) * (c - b)) };
-}
+/// Gauss-Legendre nodes on (0, 1).
+constexpr std::array<double, 3> GaussNodes = { 0.11270166537925831, 0.5, 0.88729833462074169 };
+/// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
+constexpr std::size_t MostColumns = 16;
 
 /// A piece of the plate as the eye sees it.
 struct Sample
@@ -54,40 +45,55 @@ struct Moments
   double Deviation = 0.0;
 };
 
-/// Veil and optical depth over the plate.
-struct PlateField
+/// Weights of the quadratic through the three Gauss nodes.
+std::array<double, 3> Quadratic(double t)
 {
-  std::array<std::array<RayLight, 3>, 3> Light;
+  const double a = GaussNodes[0];
+  const double b = GaussNodes[1];
+  const double c = GaussNodes[2];
+  return { (t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
+    (t - a) * (t - b) / ((c - a) * (c - b)) };
+}
 
-  double OpticalDepth(const std::array<double, 3>& u, const std::array<double, 3>& v) const
+/// Columns (or rows) of a sign's pattern along one edge of the plate.
+struct Columns
+{
+  /// Where they begin and end, 0 to 1.
+  std::vector<double> Ends;
+  double Widest = 1.0;
+
+  explicit Columns(std::vector<double> borders)
   {
-    double sum = 0.0;
-    for (int i = 0; i < 3; ++i)
+    std::sort(borders.begin(), borders.end());
+    for (const double border : borders)
     {
-      for (int j = 0; j < 3; ++j)
+      if (this->Ends.empty() || border - this->Ends.back() > 1e-6)
       {
-        sum += u[i] * v[j] * this->Light[i][j].OpticalDepth;
+        this->Ends.push_back(border);
       }
     }
-    return std::max(0.0, sum);
+    if (this->Ends.size() > MostColumns + 1)
+    {
+      this->Ends = { 0.0, 1.0 };
+    }
+    this->Widest = 0.0;
+    for (std::size_t i = 1; i < this->Ends.size(); ++i)
+    {
+      this->Widest = std::max(this->Widest, this->Ends[i] - this->Ends[i - 1]);
+    }
   }
 
-  void AddVeil(
-    const std::array<double, 3>& u, const std::array<double, 3>& v, double factor, Lanes& sum) const
+  std::size_t Count() const { return this->Ends.size() - 1; }
+  std::size_t Of(double t) const
   {
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        const double weight = factor * u[i] * v[j];
-        const RayLight& light = this->Light[i][j];
-        for (int batch = 0; batch < Batches; ++batch)
-        {
-          sum[batch] +=
-            static_cast<float>(weight * (light.VeilDirect + light.VeilMultiple[batch]));
-        }
-      }
-    }
+    return std::upper_bound(this->Ends.begin() + 1, this->Ends.end() - 1, t) -
+      (this->Ends.begin() + 1);
+  }
+  /// The two Gauss points of a column.
+  double Node(std::size_t column, int index) const
+  {
+    const double width = this->Ends[column + 1] - this->Ends[column];
+    return this->Ends[column] + width * (index == 0 ? 0.21132486540518712 : 0.78867513459481288);
   }
 };
 
@@ -117,6 +123,111 @@ double BandWeight(const View& view, int band)
 {
   return view.TheScene().Bands() == 1 ? 1.0 : PhotopicWeights[band];
 }
+
+/// Veil and optical depth over the plate, in one band. Far from the plate the smoke's light varies
+/// slowly over it and is interpolated between three by three rays. Close to the plate the smoke glows
+/// in the pattern's shape, so that each column and row of it gets rays of its own.
+class PlateField
+{
+public:
+  PlateField(const View& view, const Sign& sign, const Vec3& eye, int band, const Columns& columns,
+    const Columns& rows)
+    : Columns_(columns)
+    , Rows_(rows)
+  {
+    // The pattern blurs over a distance of about its period.
+    this->Reach_ = 2.0 *
+      std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+        rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        this->Far_[j][i] =
+          this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
+      }
+    }
+    this->Near_.resize(columns.Count() * rows.Count());
+    for (std::size_t row = 0; row < rows.Count(); ++row)
+    {
+      for (std::size_t column = 0; column < columns.Count(); ++column)
+      {
+        Lanes& mean = this->Near_[row * columns.Count() + column];
+        for (const int j : { 0, 1 })
+        {
+          for (const int i : { 0, 1 })
+          {
+            const RayLight light = this->Trace(
+              view, sign, eye, band, columns.Node(column, i), rows.Node(row, j), false);
+            for (int batch = 0; batch < Batches; ++batch)
+            {
+              mean[batch] +=
+                0.25F * (static_cast<float>(light.VeilDirect) + light.VeilMultiple[batch]);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  /// Adds weight times the veil at a place to the batches; returns the optical depth there.
+  double Add(const glm::dvec2& place, double weight, Lanes& veil) const
+  {
+    const auto u = Quadratic(place.x);
+    const auto v = Quadratic(place.y);
+    const Lanes& near = this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() +
+      this->Columns_.Of(place.x)];
+    double depth = 0.0;
+    double steady = 0.0;
+    Lanes far;
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const double share = u[i] * v[j];
+        const RayLight& light = this->Far_[j][i];
+        depth += share * light.OpticalDepth;
+        steady += share * light.VeilDirect;
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          far[batch] += static_cast<float>(share) * light.VeilMultiple[batch];
+        }
+      }
+    }
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      veil[batch] +=
+        static_cast<float>(weight) * (static_cast<float>(steady) + far[batch] + near[batch]);
+    }
+    return std::max(0.0, depth);
+  }
+
+private:
+  /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of that.
+  RayLight Trace(const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v,
+    bool far) const
+  {
+    const Vec3 to = OnPlate(sign, u, v) - eye;
+    const double distance = glm::length(to);
+    const Vec3 direction = to / distance;
+    const double border = std::max(0.0, distance - this->Reach_);
+    if (!far)
+    {
+      return view.TraceVeil(eye, direction, border, distance, band);
+    }
+    RayLight light = view.TraceVeil(eye, direction, 0.0, border, band);
+    light.OpticalDepth += view.TheScene().ExtinctionScale(band) *
+      view.TheScene().Smoke().OpticalDepth(eye, direction, border, distance);
+    return light;
+  }
+
+  const Columns& Columns_;
+  const Columns& Rows_;
+  double Reach_ = 0.0;
+  std::array<std::array<RayLight, 3>, 3> Far_;
+  /// Mean over each column of each row.
+  std::vector<Lanes> Near_;
+};
 
 /// Whether the straight way from the eye ends on that cell's front.
 bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell)
@@ -320,21 +431,25 @@ SignMeasurement MeasureSign(
   result.InView = true;
   result.VisibleFraction = seen / all;
 
+  std::vector<double> bordersU;
+  std::vector<double> bordersV;
+  for (const std::size_t cell : plate.Cells)
+  {
+    for (const Vec3& vertex : lights.Cells()[cell].Vertices)
+    {
+      const glm::dvec2 place = PlaceOnPlate(plate, vertex);
+      bordersU.push_back(place.x);
+      bordersV.push_back(place.y);
+    }
+  }
+  const Columns across(std::move(bordersU));
+  const Columns up(std::move(bordersV));
   const int bands = view.TheScene().Bands();
   const std::vector<bool> lit = LitCells(view, plate);
   std::vector<Sample> samples;
   for (int band = 0; band < bands; ++band)
   {
-    PlateField field;
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        const Vec3 to = OnPlate(plate, Lattice[i], Lattice[j]) - eye;
-        const double distance = glm::length(to);
-        field.Light[i][j] = view.TraceVeil(eye, to / distance, distance, band);
-      }
-    }
+    const PlateField field(view, plate, eye, band, across, up);
     std::size_t index = 0;
     for (const Piece& piece : pieces)
     {
@@ -352,21 +467,18 @@ SignMeasurement MeasureSign(
         samples.push_back({ piece.Weight, pixel, lit[piece.Cell], Lanes() });
       }
       Sample& sample = samples[index++];
-      const auto u = Quadratic(piece.Place.x);
-      const auto v = Quadratic(piece.Place.y);
-      const double depth = field.OpticalDepth(u, v);
+      const double weight = BandWeight(view, band);
+      const double depth = field.Add(piece.Place, weight, sample.Light);
       Lanes reflected;
       const Vec3 towards = glm::normalize(eye - piece.Point);
       const double luminance =
         view.EmitterLuminance(piece.Cell, 0, piece.Point, towards, band, reflected);
-      const double weight = BandWeight(view, band);
       const double transmitted = weight * std::exp(-depth);
       const double steady = transmitted * (luminance - Mean(reflected));
       for (int batch = 0; batch < Batches; ++batch)
       {
         sample.Light[batch] += static_cast<float>(steady + transmitted * reflected[batch]);
       }
-      field.AddVeil(u, v, weight, sample.Light);
       result.OpticalDepth += piece.Weight / seen * weight * depth;
     }
   }
@@ -456,9 +568,9 @@ double PerceivedContrastBound(
     luminance = std::max(luminance, Luminance(value, bands));
   }
   double least = 1e300;
-  for (const double u : Lattice)
+  for (const double u : GaussNodes)
   {
-    for (const double v : Lattice)
+    for (const double v : GaussNodes)
     {
       const Vec3 to = OnPlate(plate, u, v) - eye;
       const double distance = glm::length(to);

@@ -20,6 +20,11 @@ namespace
 constexpr double NearEdges = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
+/// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs into
+/// the plate, how many and how much closer to the plate each ends.
+constexpr int MostParts = 16;
+constexpr int GradedParts = 2;
+constexpr double Grading = 0.25;
 
 /// Gauss-Legendre nodes and weights on (0, 1).
 constexpr std::array<double, 4> GaussNodes = { 0.06943184420297371, 0.33000947820757187,
@@ -66,6 +71,8 @@ struct View::Implementation
   struct NearCell
   {
     std::vector<std::uint32_t> Lights;
+    /// Which of them the whole cell sees unhidden.
+    std::vector<bool> Clear;
     /// Value at the centre [lx] and gradient [lx/m].
     Spectrum Far{};
     std::array<Spectrum, 3> FarGradient{};
@@ -91,6 +98,9 @@ struct View::Implementation
   /// ahead of the piece dims it [cd/m2].
   double NearLight(const NearCell& near, const Vec3& origin, const Vec3& direction, double begin,
     double end, double extinction, int band) const;
+  /// Ends of the parts that such a piece is cut into; returns their number.
+  static int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
+    double begin, double end, double extinction, std::array<double, MostParts + 1>& ends);
   const NearCell* Near(std::int64_t cell) const
   {
     const std::int32_t index = this->NearIndex.empty() ? -1 : this->NearIndex[cell];
@@ -189,7 +199,7 @@ void View::Implementation::FindNearCells()
     if (!nearLights[cell].empty())
     {
       this->NearIndex[cell] = static_cast<std::int32_t>(this->NearCells.size());
-      this->NearCells.push_back({ std::move(nearLights[cell]), {}, {} });
+      this->NearCells.push_back({ std::move(nearLights[cell]), {}, {}, {} });
     }
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
@@ -202,6 +212,10 @@ void View::Implementation::FindNearCells()
           continue;
         }
         NearCell& near = this->NearCells[this->NearIndex[cell]];
+        for (const std::uint32_t light : near.Lights)
+        {
+          near.Clear.push_back(this->Direct.Clear(light, static_cast<std::int64_t>(cell)));
+        }
         if (near.Lights.size() == lights.Lights().size())
         {
           continue;
@@ -322,25 +336,56 @@ void View::Implementation::AddMultiple(
   }
 }
 
+int View::Implementation::PartEnds(const LightGroup& light, const Vec3& origin,
+  const Vec3& direction, double begin, double end, double extinction,
+  std::array<double, MostParts + 1>& ends)
+{
+  ends[0] = begin;
+  const double first = glm::dot(origin + begin * direction - light.Centre, light.Normal);
+  const double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  const double close = glm::length(origin + end * direction - light.Centre);
+  if (last >= 0.0 && last < 0.3 * first && close < 1.5 * light.Radius)
+  {
+    // The ray ends close to the plate, where the light follows the pattern: parts shrink towards it.
+    int parts = 0;
+    for (double height = first; parts + 1 < GradedParts && height * Grading > last;)
+    {
+      height *= Grading;
+      ends[++parts] = begin + (end - begin) * (first - height) / (first - last);
+    }
+    ends[++parts] = end;
+    return parts;
+  }
+  // The parts are shorter where the smoke is thick.
+  const int parts =
+    std::clamp(static_cast<int>(std::ceil(extinction * (end - begin))), 1, MostParts);
+  for (int part = 1; part <= parts; ++part)
+  {
+    ends[part] = part == parts ? end : begin + (end - begin) * part / parts;
+  }
+  return parts;
+}
+
 double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
   const Vec3& direction, double begin, double end, double extinction, int band) const
 {
   const EmitterSet& lights = this->TheScene.Lights();
   double sum = 0.0;
-  for (const std::uint32_t light : near.Lights)
+  for (std::size_t index = 0; index < near.Lights.size(); ++index)
   {
+    const std::uint32_t light = near.Lights[index];
     const LightGroup& root = lights.Groups()[lights.Lights()[light]];
     // Equiangular points about the light follow 1/d^2 (Kulla and Fajardo 2012); a light of some size
-    // is no steeper than its radius. The points are denser where the smoke is thick.
+    // is no steeper than its radius.
     const double middle = glm::dot(root.Centre - origin, direction);
     const double aside = glm::length(origin + middle * direction - root.Centre);
     const double width = std::max({ aside, 0.5 * root.Radius, 1e-9 });
-    const int parts =
-      std::clamp(static_cast<int>(std::ceil(extinction * (end - begin))), 1, 16);
-    double from = begin;
+    std::array<double, MostParts + 1> ends;
+    const int parts = this->PartEnds(root, origin, direction, begin, end, extinction, ends);
     for (int part = 0; part < parts; ++part)
     {
-      const double to = part + 1 == parts ? end : begin + (end - begin) * (part + 1) / parts;
+      const double from = ends[part];
+      const double to = ends[part + 1];
       const double low = std::atan((from - middle) / width);
       const double high = std::atan((to - middle) / width);
       for (std::size_t i = 0; i < GaussNodes.size(); ++i)
@@ -349,10 +394,10 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
         const double tangent = std::tan(angle);
         const double distance = std::clamp(middle + width * tangent, from, to);
         const double step = GaussWeights[i] * (high - low) * width * (1.0 + tangent * tangent);
-        const Spectrum fluence = this->Direct.Fluence(light, origin + distance * direction);
+        const Spectrum fluence =
+          this->Direct.Fluence(light, origin + distance * direction, near.Clear[index]);
         sum += fluence[band] * step * extinction * std::exp(-extinction * (distance - begin));
       }
-      from = to;
     }
   }
   return sum * this->TheScene.Albedo() / (4.0 * glm::pi<double>());
@@ -373,7 +418,7 @@ Hit View::FirstHit(const Vec3& origin, const Vec3& direction, double end) const
 }
 
 RayLight View::TraceVeil(
-  const Vec3& origin, const Vec3& direction, double distance, int band) const
+  const Vec3& origin, const Vec3& direction, double begin, double end, int band) const
 {
   const Implementation& self = *this->Implementation_;
   const Medium& smoke = this->Scene_->Smoke();
@@ -381,8 +426,9 @@ RayLight View::TraceVeil(
   const double albedo = this->Scene_->Albedo();
   const double scatter = albedo / (4.0 * glm::pi<double>());
   RayLight light;
+  light.OpticalDepth = begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
   thread_local std::vector<Segment> segments;
-  smoke.Walk(origin, direction, 0.0, distance, segments);
+  smoke.Walk(origin, direction, begin, end, segments);
   for (const Segment& segment : segments)
   {
     const double extinction = smoke.Extinction(segment.Cell) * scale;
@@ -419,7 +465,7 @@ RayLight View::TraceVeil(
 RayLight View::Trace(
   const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
 {
-  RayLight light = this->TraceVeil(origin, direction, hit.Distance, band);
+  RayLight light = this->TraceVeil(origin, direction, 0.0, hit.Distance, band);
   if (!hit.Found())
   {
     return light;

@@ -49,8 +49,10 @@ public:
   /// Where the hit is an emitter cell its own luminance is included.
   RayLight Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const;
 
-  /// Only the smoke's share of that light (Surface stays 0), up to a distance.
-  RayLight TraceVeil(const Vec3& origin, const Vec3& direction, double distance, int band) const;
+  /// Only the share of that light that the smoke between two distances sends (Surface stays 0). The
+  /// optical depth is that of the ray from its origin to `end`.
+  RayLight TraceVeil(
+    const Vec3& origin, const Vec3& direction, double begin, double end, int band) const;
 
   /// Luminance that leaves an emitter cell towards a direction (unit, away from the plate), emitted
   /// and reflected [cd/m2], before any smoke.

@@ -1,0 +1,37 @@
+// The image that a camera in the smoke receives, pixel by pixel.
+#pragma once
+
+#include "Camera.h"
+#include "Progress.h"
+#include "View.h"
+
+#include <vector>
+
+namespace smokevis
+{
+
+/// Values a pixel, bottom row first. Luminances are photometric [cd/m2].
+struct TracedImage
+{
+  std::vector<float> Luminance;
+  /// Standard error of the luminance.
+  std::vector<float> LuminanceError;
+  /// What is left of the light of the surfaces and signs that end the rays.
+  std::vector<float> Direct;
+  /// Light that the smoke adds.
+  std::vector<float> Veil;
+  /// To the end of the ray; with three bands, of the middle one.
+  std::vector<float> OpticalDepth;
+  /// Luminance of each of three bands, 3 values a pixel.
+  std::vector<float> LuminanceRGB;
+  /// Id of the sign whose front the middle of the pixel sees, or -1.
+  std::vector<int> SignIds;
+};
+
+/// Traces all pixels. A pixel that shows a plate of a sign or lamp averages over its footprint,
+/// which is no smaller than the observer resolves. The result does not depend on the number of
+/// threads. Throws Error when stopped.
+/// @param acuity smallest angle that is resolved [rad]
+TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress);
+
+} // namespace smokevis

@@ -1,0 +1,234 @@
+// The light field as cell arrays.
+#include "LightFieldArrays.h"
+
+#include "Errors.h"
+
+#include <vtkCellData.h>
+#include <vtkDataSet.h>
+#include <vtkFloatArray.h>
+
+#include <cmath>
+
+namespace smokevis
+{
+namespace
+{
+
+constexpr int Sides = 2;
+
+vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int components)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(block.GetNumberOfCells());
+  if (components == MaxBands)
+  {
+    array->SetComponentName(0, "R");
+    array->SetComponentName(1, "G");
+    array->SetComponentName(2, "B");
+  }
+  block.GetCellData()->AddArray(array);
+  return array;
+}
+
+void CopyLanes(const Lanes& lanes, float* target)
+{
+  std::copy(lanes.Value, lanes.Value + Batches, target);
+}
+
+void StoreSmoke(const LightField& field, std::size_t firstCell, int bands, vtkDataSet& block)
+{
+  const auto fluence = AddArray(block, "Fluence", bands);
+  const auto error = AddArray(block, "FluenceError", bands);
+  const auto direct = AddArray(block, "DirectFluence", bands);
+  const auto multiple = AddArray(block, "MultipleFluence", bands * Batches);
+  for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < bands; ++band)
+    {
+      const std::size_t index =
+        field.CellIndex(std::min(band, field.Bands - 1), static_cast<std::int64_t>(firstCell) + i);
+      const Lanes& lanes = field.MultipleFluence[index];
+      direct->SetTypedComponent(i, band, field.DirectFluence[index]);
+      fluence->SetTypedComponent(
+        i, band, static_cast<float>(field.DirectFluence[index] + Mean(lanes)));
+      error->SetTypedComponent(i, band, static_cast<float>(StandardError(lanes)));
+      CopyLanes(lanes, multiple->GetPointer((i * bands + band) * Batches));
+    }
+  }
+}
+
+void StorePatches(const LightField& field, std::size_t firstPatch, int bands, vtkDataSet& block)
+{
+  const auto front = AddArray(block, "Illuminance", bands);
+  const auto error = AddArray(block, "IlluminanceError", bands);
+  const auto back = AddArray(block, "IlluminanceBack", bands);
+  const auto direct = AddArray(block, "DirectIlluminance", bands * Sides);
+  const auto multiple = AddArray(block, "MultipleIlluminance", bands * Sides * Batches);
+  for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < bands; ++band)
+    {
+      for (int side = 0; side < Sides; ++side)
+      {
+        const std::size_t index =
+          field.PatchIndex(std::min(band, field.Bands - 1), firstPatch + i, side);
+        const Lanes& lanes = field.MultipleIlluminance[index];
+        direct->SetTypedComponent(i, band * Sides + side, field.DirectIlluminance[index]);
+        (side == 0 ? front : back)
+          ->SetTypedComponent(
+            i, band, static_cast<float>(field.DirectIlluminance[index] + Mean(lanes)));
+        if (side == 0)
+        {
+          error->SetTypedComponent(i, band, static_cast<float>(StandardError(lanes)));
+        }
+        CopyLanes(lanes, multiple->GetPointer(((i * bands + band) * Sides + side) * Batches));
+      }
+    }
+  }
+}
+
+/// An array that must be there, with at least so many components.
+class NeededArray
+{
+public:
+  NeededArray(vtkDataSet& block, const std::string& blockName, const char* name, int components)
+      : Values_(block.GetCellData()->GetArray(name)),
+        Where_("cell array " + std::string(name) + " of block '" + blockName + "'")
+  {
+    if (!this->Values_ || this->Values_->GetNumberOfComponents() < components ||
+        this->Values_->GetNumberOfTuples() != block.GetNumberOfCells())
+    {
+      throw Error(this->Where_, "it is missing or has another size than the light field needs",
+        "Give the output of SmokeLightField, or a file that it was saved to");
+    }
+    this->Floats_ = vtkFloatArray::SafeDownCast(this->Values_);
+  }
+
+  float Get(vtkIdType cell, int component) const
+  {
+    const float value = this->Floats_
+                          ? this->Floats_->GetTypedComponent(cell, component)
+                          : static_cast<float>(this->Values_->GetComponent(cell, component));
+    if (!std::isfinite(value))
+    {
+      throw Error(this->Where_, "the value of cell " + std::to_string(cell) + " is not finite",
+        "Run SmokeLightField again");
+    }
+    return value;
+  }
+
+  void Get(vtkIdType cell, int component, Lanes& lanes) const
+  {
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      lanes[batch] = this->Get(cell, component + batch);
+    }
+  }
+
+private:
+  vtkDataArray* Values_;
+  vtkFloatArray* Floats_ = nullptr;
+  std::string Where_;
+};
+
+void LoadSmoke(const SmokeBlock& block, std::size_t firstCell, LightField& field)
+{
+  const NeededArray direct(*block.Grid, block.Name, "DirectFluence", field.Bands);
+  const NeededArray multiple(*block.Grid, block.Name, "MultipleFluence", field.Bands * Batches);
+  for (vtkIdType i = 0; i < block.Grid->GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < field.Bands; ++band)
+    {
+      const std::size_t index = field.CellIndex(band, static_cast<std::int64_t>(firstCell) + i);
+      field.DirectFluence[index] = direct.Get(i, band);
+      multiple.Get(i, band * Batches, field.MultipleFluence[index]);
+    }
+  }
+}
+
+void LoadPatches(const SurfaceBlock& block, std::size_t firstPatch, LightField& field)
+{
+  const NeededArray direct(*block.Mesh, block.Name, "DirectIlluminance", field.Bands * Sides);
+  const NeededArray multiple(
+    *block.Mesh, block.Name, "MultipleIlluminance", field.Bands * Sides * Batches);
+  for (vtkIdType i = 0; i < block.Mesh->GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < field.Bands; ++band)
+    {
+      for (int side = 0; side < Sides; ++side)
+      {
+        const std::size_t index = field.PatchIndex(band, firstPatch + i, side);
+        field.DirectIlluminance[index] = direct.Get(i, band * Sides + side);
+        multiple.Get(i, (band * Sides + side) * Batches, field.MultipleIlluminance[index]);
+      }
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands)
+{
+  std::size_t cell = 0;
+  for (const SmokeBlock& block : blocks.Smoke)
+  {
+    StoreSmoke(field, cell, bands, *block.Grid);
+    cell += block.Grid->GetNumberOfCells();
+  }
+  std::vector<float>().swap(field.DirectFluence);
+  std::vector<Lanes>().swap(field.MultipleFluence);
+  std::size_t patch = 0;
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (const SurfaceBlock& block : *group)
+    {
+      StorePatches(field, patch, bands, *block.Mesh);
+      patch += block.Mesh->GetNumberOfCells();
+    }
+  }
+  std::vector<float>().swap(field.DirectIlluminance);
+  std::vector<Lanes>().swap(field.MultipleIlluminance);
+}
+
+//------------------------------------------------------------------------------
+LightField LoadLightField(const SceneBlocks& blocks, int bands)
+{
+  LightField field;
+  field.Bands = bands;
+  for (const SmokeBlock& block : blocks.Smoke)
+  {
+    field.Cells += block.Grid->GetNumberOfCells();
+  }
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (const SurfaceBlock& block : *group)
+    {
+      field.Patches += block.Mesh->GetNumberOfCells();
+    }
+  }
+  field.DirectFluence.resize(field.Cells * bands);
+  field.MultipleFluence.resize(field.Cells * bands);
+  field.DirectIlluminance.resize(field.Patches * bands * Sides);
+  field.MultipleIlluminance.resize(field.Patches * bands * Sides);
+  std::size_t cell = 0;
+  for (const SmokeBlock& block : blocks.Smoke)
+  {
+    LoadSmoke(block, cell, field);
+    cell += block.Grid->GetNumberOfCells();
+  }
+  std::size_t patch = 0;
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (const SurfaceBlock& block : *group)
+    {
+      LoadPatches(block, patch, field);
+      patch += block.Mesh->GetNumberOfCells();
+    }
+  }
+  return field;
+}
+
+} // namespace smokevis

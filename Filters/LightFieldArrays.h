@@ -1,0 +1,25 @@
+// The light field as cell arrays of VTK data: what SmokeLightField writes and the views read.
+#pragma once
+
+#include "LightField.h"
+#include "SceneBlocks.h"
+
+namespace smokevis
+{
+
+/// Adds the light field to the blocks that it was solved for. Where the field was solved in one
+/// band for a scene of three equal bands, the band is repeated. Memory of the field is given back
+/// on the way.
+///
+/// Smoke cells: `Fluence`, `FluenceError` [lx] a band, `DirectFluence` a band, and
+/// `MultipleFluence` with a value a batch, band after band. Surface and emitter cells:
+/// `Illuminance`, `IlluminanceError`, `IlluminanceBack` [lx] a band, `DirectIlluminance` with front
+/// and back of each band, and `MultipleIlluminance` with the batches of the front, then of the
+/// back, band after band.
+void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands);
+
+/// Reads the light field back. Throws Error where an array is missing or has another size.
+/// @param bands  bands to read, the first ones of the file
+LightField LoadLightField(const SceneBlocks& blocks, int bands);
+
+} // namespace smokevis

@@ -1,0 +1,185 @@
+// Makes a light field that arrives as VTK data ready for views.
+#include "LightFieldInput.h"
+
+#include "Errors.h"
+#include "LightFieldArrays.h"
+#include "SceneBuilder.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+
+namespace smokevis
+{
+namespace
+{
+
+const char* const Remedy = "Give the output of SmokeLightField, or a file that it was saved to";
+
+double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
+{
+  double value = 0.0;
+  if (!FieldNumber(input, name, component, value))
+  {
+    throw Error("light field", std::string("its field data have no ") + name, Remedy);
+  }
+  return value;
+}
+
+std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters)
+{
+  std::map<int, std::string> names;
+  for (const SurfaceBlock& block : emitters)
+  {
+    auto* const texts =
+      vtkStringArray::SafeDownCast(block.Mesh->GetCellData()->GetAbstractArray("SignName"));
+    vtkDataArray* const ids = block.Mesh->GetCellData()->GetArray("SignId");
+    for (vtkIdType i = 0; texts && ids && i < ids->GetNumberOfTuples(); ++i)
+    {
+      names.emplace(static_cast<int>(ids->GetComponent(i, 0)), texts->GetValue(i));
+    }
+  }
+  return names;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const View& LightFieldInput::Get(vtkDataObject* input)
+{
+  if (!input)
+  {
+    throw Error("light field", "there is no input", Remedy);
+  }
+  const vtkMTimeType time = std::max(input->GetMTime(), input->GetUpdateTime());
+  if (!this->View_ || this->Input_ != input || this->InputTime_ != time)
+  {
+    this->View_.reset();
+    this->Load(input);
+    this->Input_ = input;
+    this->InputTime_ = time;
+  }
+  return *this->View_;
+}
+
+//------------------------------------------------------------------------------
+void LightFieldInput::Load(vtkDataObject* input)
+{
+  SceneBlocks blocks;
+  vtkDataObject* const smoke = FindBlock(input, "Smoke");
+  if (!smoke)
+  {
+    throw Error("light field", "it has no block named Smoke", Remedy);
+  }
+  blocks.Smoke = CollectSmoke(smoke, "Smoke");
+  blocks.Surfaces = CollectSurfaces(FindBlock(input, "Surfaces"), "Surfaces");
+  blocks.Emitters = CollectSurfaces(FindBlock(input, "Emitters"), "Emitters");
+
+  SceneOptions options;
+  options.Albedo = NeededNumber(input, "Albedo");
+  options.Bands = NeededNumber(input, "Bands") == 3.0 ? 3 : 1;
+  for (int band = 0; band < options.Bands; ++band)
+  {
+    options.ExtinctionScale[band] = NeededNumber(input, "ExtinctionScale", band);
+  }
+  this->Bands_ = options.Bands;
+  SceneDescription description = BuildScene(blocks, options);
+  if (BandsAreEqual(description))
+  {
+    description.Bands = 1;
+  }
+  const int bands = description.Bands;
+  auto scene = std::make_shared<const Scene>(std::move(description));
+  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
+  this->SignNames_ = ReadSignNames(blocks.Emitters);
+  this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
+}
+
+//------------------------------------------------------------------------------
+std::string LightFieldInput::SignName(int id) const
+{
+  const auto found = this->SignNames_.find(id);
+  return found == this->SignNames_.end() || found->second.empty() ? "Sign " + std::to_string(id)
+                                                                  : found->second;
+}
+
+//------------------------------------------------------------------------------
+std::string LightFieldInput::SignIds() const
+{
+  std::string text;
+  for (const Sign& sign : this->View_->TheScene().Lights().Signs())
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(sign.Id);
+  }
+  return text.empty() ? "none" : text;
+}
+
+//------------------------------------------------------------------------------
+bool FieldNumber(vtkDataObject* lightField, const char* name, int component, double& value)
+{
+  if (vtkFieldData* const fields = lightField ? lightField->GetFieldData() : nullptr)
+  {
+    vtkDataArray* const array = fields->GetArray(name);
+    const vtkIdType count = array ? array->GetNumberOfValues() : 0;
+    if (component < count)
+    {
+      const int width = array->GetNumberOfComponents();
+      value = array->GetComponent(component / width, component % width);
+      return true;
+    }
+  }
+  for (const Child& child : Children(lightField))
+  {
+    if (FieldNumber(child.Object, name, component, value))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void AddFieldNumber(vtkDataObject& target, const char* name, std::initializer_list<double> values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  target.GetFieldData()->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void AddFieldTexts(vtkDataObject& target, const char* name, const std::vector<std::string>& texts)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& text : texts)
+  {
+    array->InsertNextValue(text);
+  }
+  target.GetFieldData()->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void AddWorkReport(vtkDataObject& target, const std::vector<WorkItem>& report)
+{
+  std::vector<std::string> what, why;
+  vtkNew<vtkDoubleArray> count;
+  count->SetName("WorkReportCount");
+  for (const WorkItem& item : report)
+  {
+    what.push_back(item.What);
+    count->InsertNextValue(item.Count);
+    why.push_back(item.Why);
+  }
+  AddFieldTexts(target, "WorkReportWhat", what);
+  target.GetFieldData()->AddArray(count);
+  AddFieldTexts(target, "WorkReportWhy", why);
+}
+
+} // namespace smokevis

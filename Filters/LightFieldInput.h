@@ -1,0 +1,54 @@
+// The light field that a view filter gets as input, made ready for views and kept while it stays
+// the same.
+#pragma once
+
+#include "View.h"
+
+#include <vtkDataObject.h>
+#include <vtkWeakPointer.h>
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smokevis
+{
+
+/// Holds the view of the input that it saw last.
+class LightFieldInput
+{
+public:
+  /// The view of a light field; built anew only where the input changed. Throws Error where the
+  /// input is not the output of SmokeLightField.
+  const View& Get(vtkDataObject* input);
+
+  /// Bands that the last input was made with; the view has fewer where they came out equal.
+  int Bands() const { return this->Bands_; }
+  /// What a sign of the last input is called.
+  std::string SignName(int id) const;
+  /// The ids of the signs of the last input, for messages.
+  std::string SignIds() const;
+
+private:
+  void Load(vtkDataObject* input);
+
+  vtkWeakPointer<vtkDataObject> Input_;
+  vtkMTimeType InputTime_ = 0;
+  int Bands_ = 1;
+  std::map<int, std::string> SignNames_;
+  std::unique_ptr<const View> View_;
+};
+
+/// A number of field data of a light field, in the collection's own field data or, where a file
+/// format dropped those, in those of a block. Returns false where there is none.
+bool FieldNumber(vtkDataObject* lightField, const char* name, int component, double& value);
+
+/// Adds numbers, or texts, as an array of field data.
+void AddFieldNumber(vtkDataObject& target, const char* name, std::initializer_list<double> values);
+void AddFieldTexts(vtkDataObject& target, const char* name, const std::vector<std::string>& texts);
+/// Adds WorkReportWhat, WorkReportCount and WorkReportWhy.
+void AddWorkReport(vtkDataObject& target, const std::vector<WorkItem>& report);
+
+} // namespace smokevis

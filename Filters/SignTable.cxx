@@ -1,0 +1,253 @@
+// Reads many signs from a table in a text file.
+#include "ErrorCollector.h"
+#include "Errors.h"
+#include "SignPlate.h"
+
+#include <vtkDelimitedTextReader.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+namespace smokevis
+{
+namespace
+{
+
+const std::vector<std::string> Columns = {"id", "name", "cx", "cy", "cz", "nx", "ny", "nz", "ux",
+  "uy", "uz", "width", "height", "pattern", "bars", "luminance"};
+
+/// Header of the column that catches fields beyond the last column.
+const std::string Surplus = "#";
+
+std::string Trim(const std::string& text)
+{
+  const char* const blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? std::string()
+                                    : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string Lower(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The lines that hold something, as one text, and the number of each in the file.
+struct Lines
+{
+  std::string Text;
+  std::vector<int> Numbers;
+};
+
+Lines ReadLines(const std::string& fileName)
+{
+  std::ifstream file(fileName);
+  if (!file)
+  {
+    throw Error("sign table '" + fileName + "'", "the file cannot be opened",
+      "Give a CSV file with a header line");
+  }
+  Lines lines;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number)
+  {
+    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+    {
+      line.erase(0, 3);
+    }
+    line = Trim(line);
+    if (line.empty() || line[0] == '#')
+    {
+      continue;
+    }
+    lines.Text += line + (lines.Numbers.empty() ? "," + Surplus : "") + "\n";
+    lines.Numbers.push_back(number);
+  }
+  return lines;
+}
+
+/// One row of the table, asked by column.
+class Row
+{
+public:
+  Row(const std::map<std::string, vtkStringArray*>& columns, vtkIdType row, std::string where)
+      : Columns_(columns), Row_(row), Where_(std::move(where))
+  {
+  }
+
+  /// The field, or nothing where it is blank or the column is missing.
+  std::string Text(const std::string& column) const
+  {
+    const auto found = this->Columns_.find(column);
+    return found == this->Columns_.end() ? std::string()
+                                         : Trim(found->second->GetValue(this->Row_));
+  }
+
+  template <class Number> Number Get(const std::string& column, Number otherwise) const
+  {
+    const std::string text = this->Text(column);
+    if (text.empty())
+    {
+      return otherwise;
+    }
+    Number value{};
+    const char* const begin = text.data() + (text[0] == '+' ? 1 : 0);
+    const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
+    bool good = code == std::errc() && end == text.data() + text.size();
+    if constexpr (std::is_floating_point_v<Number>)
+    {
+      good = good && std::isfinite(value);
+    }
+    if (!good)
+    {
+      throw Error(this->Where_, "column " + column + " holds '" + text + "', which is not a number",
+        std::is_integral_v<Number> ? "Write a whole number"
+                                   : "Write a number with a decimal point");
+    }
+    return value;
+  }
+
+  double Needed(const std::string& column) const
+  {
+    if (this->Text(column).empty())
+    {
+      throw Error(
+        this->Where_, "column " + column + " is blank", "Give the sign's centre in metres");
+    }
+    return this->Get(column, 0.0);
+  }
+
+  SignPattern Pattern(SignPattern otherwise) const
+  {
+    const std::string text = Lower(this->Text("pattern"));
+    if (text.empty())
+    {
+      return otherwise;
+    }
+    for (const auto& [name, pattern] : {std::pair("square", SignPattern::Square),
+           std::pair("barcode", SignPattern::Barcode), std::pair("image", SignPattern::Image)})
+    {
+      if (text == name)
+      {
+        return pattern;
+      }
+    }
+    throw Error(
+      this->Where_, "the pattern '" + text + "' is not known", "Write Square, Barcode or Image");
+  }
+
+private:
+  const std::map<std::string, vtkStringArray*>& Columns_;
+  vtkIdType Row_;
+  std::string Where_;
+};
+
+SignPlate ReadSign(const Row& row, const SignPlate& defaults)
+{
+  SignPlate sign = defaults;
+  sign.Id = row.Get("id", defaults.Id);
+  sign.Name = row.Text("name");
+  sign.Centre = {row.Needed("cx"), row.Needed("cy"), row.Needed("cz")};
+  sign.Normal = {row.Get("nx", defaults.Normal.x), row.Get("ny", defaults.Normal.y),
+    row.Get("nz", defaults.Normal.z)};
+  sign.Up = {
+    row.Get("ux", defaults.Up.x), row.Get("uy", defaults.Up.y), row.Get("uz", defaults.Up.z)};
+  sign.Width = row.Get("width", defaults.Width);
+  sign.Height = row.Get("height", defaults.Height);
+  sign.Pattern = row.Pattern(defaults.Pattern);
+  sign.Bars = row.Get("bars", defaults.Bars);
+  sign.Luminance = row.Get("luminance", defaults.Luminance);
+  return sign;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlate& defaults)
+{
+  const std::string where = "sign table '" + fileName + "'";
+  const Lines lines = ReadLines(fileName);
+  if (lines.Numbers.size() < 2)
+  {
+    throw Error(where, "it holds no sign", "Give a header line and a line for each sign");
+  }
+  vtkNew<vtkDelimitedTextReader> reader;
+  vtkNew<ErrorCollector> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddObserver(vtkCommand::WarningEvent, errors);
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(lines.Text);
+  reader->SetHaveHeaders(true);
+  reader->SetDetectNumericColumns(false);
+  reader->Update();
+  vtkTable* table = reader->GetOutput();
+  const auto rows = static_cast<vtkIdType>(lines.Numbers.size()) - 1;
+  if (!errors->Text().empty() || table->GetNumberOfRows() != rows)
+  {
+    throw Error(where, "it is not a table of comma-separated values",
+      "Write one line for each sign, text that holds commas in double quotes");
+  }
+
+  std::map<std::string, vtkStringArray*> columns;
+  for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
+  {
+    auto* const column = vtkStringArray::SafeDownCast(table->GetColumn(i));
+    const std::string name = column ? Lower(Trim(column->GetName())) : std::string();
+    const bool known = std::find(Columns.begin(), Columns.end(), name) != Columns.end();
+    if (!known && name != Surplus)
+    {
+      throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
+        "the column '" + name + "' is not known",
+        "The columns are id, name, cx, cy, cz, nx, ny, nz, ux, uy, uz, width, height, pattern, "
+        "bars, "
+        "luminance");
+    }
+    columns[name] = column;
+  }
+  for (const char* const needed : {"cx", "cy", "cz"})
+  {
+    if (columns.count(needed) == 0)
+    {
+      throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
+        std::string("the column ") + needed + " is missing",
+        "Separate columns by commas and name them in the first line");
+    }
+  }
+
+  std::vector<SignPlate> signs;
+  std::map<int, int> lineOfId;
+  for (vtkIdType i = 0; i < rows; ++i)
+  {
+    const int line = lines.Numbers[i + 1];
+    const std::string place = where + ", line " + std::to_string(line);
+    const Row row(columns, i, place);
+    if (!row.Text(Surplus).empty())
+    {
+      throw Error(place, "it has more fields than the header",
+        "Write decimal points, not commas, and put text that holds commas in double quotes");
+    }
+    SignPlate start = defaults;
+    start.Id = defaults.Id + static_cast<int>(i);
+    start.Origin = place;
+    SignPlate sign = ReadSign(row, start);
+    const auto [first, added] = lineOfId.emplace(sign.Id, line);
+    if (!added)
+    {
+      throw Error(place,
+        "id " + std::to_string(sign.Id) + " was given in line " + std::to_string(first->second),
+        "Give each sign its own id");
+    }
+    signs.push_back(std::move(sign));
+  }
+  return signs;
+}
+
+} // namespace smokevis

@@ -1,0 +1,249 @@
+#include "vtkFloorMapOfVisibility.h"
+
+#include "Errors.h"
+#include "FloorMap.h"
+#include "LightFieldInput.h"
+#include "PipelineProgress.h"
+#include "WholeInput.h"
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <cmath>
+
+vtkStandardNewMacro(vtkFloorMapOfVisibility);
+
+struct vtkFloorMapOfVisibility::Internals
+{
+  smokevis::LightFieldInput Input;
+};
+
+namespace
+{
+
+constexpr double MaximumValues = 1e8;
+
+using smokevis::Error;
+using smokevis::Vec3;
+
+/// Adds an array with a component a sign, named after the signs where there are several.
+void AddFloats(vtkImageData* image, const char* name, const std::vector<float>& values,
+  const std::vector<std::string>& components = {""})
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(components.size()));
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  for (std::size_t i = 0; i < components.size(); ++i)
+  {
+    if (!components[i].empty())
+    {
+      array->SetComponentName(static_cast<vtkIdType>(i), components[i].c_str());
+    }
+  }
+  image->GetPointData()->AddArray(array);
+}
+
+template <class Value>
+void AddInts(vtkImageData* image, const char* name, const std::vector<Value>& values)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    array->SetValue(i, static_cast<int>(values[i]));
+  }
+  image->GetPointData()->AddArray(array);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkFloorMapOfVisibility::vtkFloorMapOfVisibility() : Implementation(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkFloorMapOfVisibility::~vtkFloorMapOfVisibility() = default;
+
+//------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  const int extent[6] = {
+    0, std::max(1, this->Resolution[0]) - 1, 0, std::max(1, this->Resolution[1]) - 1, 0, 0};
+  outputVector->GetInformationObject(0)->Set(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  smokevis::RequestWholeInputs(inputVector[0]);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::CheckProperties() const
+{
+  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
+  {
+    if (!good)
+    {
+      throw Error(name, what, remedy);
+    }
+  };
+  const auto notNegative = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  check(this->Resolution[0] > 0 && this->Resolution[1] > 0, "Resolution", "it is not positive",
+    "Give the number of places along x and y");
+  check(static_cast<double>(this->Resolution[0]) * this->Resolution[1] <= MaximumValues,
+    "Resolution", "the map has more than 100 million places", "Give fewer places");
+  check(std::isfinite(this->EyeHeight), "EyeHeight", "it is not finite", "Give it in metres");
+  check(notNegative(this->ContrastThreshold), "ContrastThreshold", "it is negative",
+    "Give 0.2 for the point of disappearance");
+  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
+    "Give a luminance in cd/m2 from 0");
+  check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
+  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
+}
+
+//------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
+{
+  this->CheckProperties();
+  const smokevis::View& view = this->Implementation->Input.Get(input);
+  const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
+  if (signs.empty())
+  {
+    throw Error("floor map", "the light field holds no sign",
+      "Give emitters with a SignId from 0, such as the source ExitSign makes");
+  }
+  const double values = static_cast<double>(this->Resolution[0]) * this->Resolution[1] *
+                        static_cast<double>(signs.size());
+  if (values > MaximumValues)
+  {
+    throw Error("Resolution",
+      "the map would hold more than 100 million values, places times " +
+        std::to_string(signs.size()) + " signs",
+      "Give fewer places");
+  }
+
+  const smokevis::Medium& smoke = view.TheScene().Smoke();
+  double bounds[6] = {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y,
+    smoke.Lower().z, smoke.Upper().z};
+  if (!(this->Bounds[0] > this->Bounds[1]))
+  {
+    std::copy_n(this->Bounds, 6, bounds);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (!(bounds[2 * axis] < bounds[2 * axis + 1]) || !std::isfinite(bounds[2 * axis]) ||
+          !std::isfinite(bounds[2 * axis + 1]))
+      {
+        throw Error("Bounds", "a lower bound is not below its upper bound",
+          "Give xmin, xmax, ymin, ymax, floor and ceiling, or xmin above xmax for the smoke's");
+      }
+    }
+  }
+  if (!(this->EyeHeight >= 0.0 && this->EyeHeight <= bounds[5] - bounds[4]))
+  {
+    throw Error("EyeHeight", "the eyes are not between floor and ceiling",
+      "Give a height above the floor in metres, or other Bounds");
+  }
+
+  smokevis::FloorMapOptions options;
+  options.PlacesX = this->Resolution[0];
+  options.PlacesY = this->Resolution[1];
+  options.StepX = (bounds[1] - bounds[0]) / options.PlacesX;
+  options.StepY = (bounds[3] - bounds[2]) / options.PlacesY;
+  options.FirstPlace = {
+    bounds[0] + 0.5 * options.StepX, bounds[2] + 0.5 * options.StepY, bounds[4] + this->EyeHeight};
+  options.ContrastThreshold = this->ContrastThreshold;
+  options.CutOff = this->CutOff;
+  options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  smokevis::PipelineProgress progress(this, 0.05, 0.98);
+  const smokevis::FloorMap map = smokevis::ComputeFloorMap(view, options, progress);
+
+  output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
+  output->SetSpacing(options.StepX, options.StepY, 1.0);
+  output->SetDimensions(options.PlacesX, options.PlacesY, 1);
+  std::vector<std::string> names;
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("SignIds");
+  for (const smokevis::Sign& sign : signs)
+  {
+    names.push_back(this->Implementation->Input.SignName(sign.Id));
+    ids->InsertNextValue(sign.Id);
+  }
+  AddFloats(output, "Visibility", map.Visibility);
+  AddFloats(output, "VisibilityError", map.VisibilityError);
+  AddInts(output, "BestSign", map.BestSign);
+  AddFloats(output, "Contrast", map.Contrast, names);
+  AddFloats(output, "PerceivedContrast", map.PerceivedContrast, names);
+  AddFloats(output, "SignLuminance", map.SignLuminance, names);
+  AddFloats(output, "VisibleFraction", map.VisibleFraction, names);
+  AddFloats(output, "OpticalDepth", map.OpticalDepth);
+  AddFloats(output, "JinVisibility", map.JinVisibility);
+  AddInts(output, "Status", map.Status);
+  output->GetPointData()->SetActiveScalars("Visibility");
+  output->GetFieldData()->AddArray(ids);
+  smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddWorkReport(*output, map.Report);
+}
+
+//------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  try
+  {
+    this->Compute(vtkDataObject::GetData(inputVector[0]), output);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    if (this->GetAbortOutput())
+    {
+      return 1;
+    }
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyeHeight: " << this->EyeHeight << "\n";
+  os << indent << "Resolution: (" << this->Resolution[0] << ", " << this->Resolution[1] << ")\n";
+  os << indent << "Bounds: (";
+  for (int i = 0; i < 6; ++i)
+  {
+    os << this->Bounds[i] << (i < 5 ? ", " : ")\n");
+  }
+  os << indent << "ContrastThreshold: " << this->ContrastThreshold << "\n";
+  os << indent << "DarkLuminance: " << this->DarkLuminance << "\n";
+  os << indent << "CutOff: " << this->CutOff << "\n";
+  os << indent << "Acuity: " << this->Acuity << "\n";
+}

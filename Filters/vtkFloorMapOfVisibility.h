@@ -1,0 +1,131 @@
+/**
+ * @class   vtkFloorMapOfVisibility
+ * @brief   whether an exit sign can be seen, over a grid of standing places
+ *
+ * Input: the output of vtkSmokeLightField, fresh or read from a file. Output: an image whose points
+ * are the centres of the floor's cells, at eye level, with the point arrays
+ * - `Visibility`, float, the largest perceived contrast over all signs in view, and its standard
+ * error `VisibilityError`; `BestSign`, int, the id of that sign, -1: none;
+ * - `Contrast` (standard deviation over mean), `PerceivedContrast`, `SignLuminance` (mean of the
+ * lit cells as it arrives [cd/m2]) and `VisibleFraction`, float, a component a sign, named after
+ * it;
+ * - `OpticalDepth` and `JinVisibility` (3 / mean extinction [m]), float, along the line to the best
+ *   sign;
+ * - `Status`, int: SEEN, BELOW_THRESHOLD, NO_SIGN_IN_VIEW, INSIDE_SOLID.
+ *
+ * Field data: `SignIds` and `SignNames` in the order of the components, and what was done and left
+ * out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ */
+#ifndef vtkFloorMapOfVisibility_h
+#define vtkFloorMapOfVisibility_h
+
+#include "SmokeFiltersModule.h"
+#include <vtkImageAlgorithm.h>
+
+#include <memory>
+
+class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
+{
+public:
+  static vtkFloorMapOfVisibility* New();
+  vtkTypeMacro(vtkFloorMapOfVisibility, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum PlaceStatus
+  {
+    SEEN = 0,
+    BELOW_THRESHOLD = 1,
+    NO_SIGN_IN_VIEW = 2,
+    INSIDE_SOLID = 3
+  };
+
+  ///@{
+  /**
+   * Height of the eyes above the floor [m]. Default: 1.7.
+   */
+  vtkSetMacro(EyeHeight, double);
+  vtkGetMacro(EyeHeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Places along x and y, from 1, at most 100 million values (places times signs). Default: (12,
+   * 8).
+   */
+  vtkSetVector2Macro(Resolution, int);
+  vtkGetVector2Macro(Resolution, int);
+  ///@}
+
+  ///@{
+  /**
+   * xmin, xmax, ymin, ymax of the area, and the heights of its floor and ceiling [m]. With
+   * xmin > xmax: the bounds of the smoke. Default: (1, -1, 1, -1, 1, -1).
+   */
+  vtkSetVector6Macro(Bounds, double);
+  vtkGetVector6Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Perceived contrast below which a sign counts as invisible, from 0. Default: 0.2.
+   */
+  vtkSetMacro(ContrastThreshold, double);
+  vtkGetMacro(ContrastThreshold, double);
+  ///@}
+
+  ///@{
+  /**
+   * Equivalent luminance of the observer's own noise [cd/m2], from 0; 0 for plain contrast.
+   * Default: 0.1.
+   */
+  vtkSetMacro(DarkLuminance, double);
+  vtkGetMacro(DarkLuminance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Signs whose perceived contrast cannot exceed this are not computed and count as 0, from 0; 0:
+   * all are computed. Default: 0.
+   */
+  vtkSetMacro(CutOff, double);
+  vtkGetMacro(CutOff, double);
+  ///@}
+
+  ///@{
+  /**
+   * Smallest angle that the observer resolves [minutes of arc], from 0; finer detail is averaged.
+   * Default: 1.
+   */
+  vtkSetMacro(Acuity, double);
+  vtkGetMacro(Acuity, double);
+  ///@}
+
+protected:
+  vtkFloorMapOfVisibility();
+  ~vtkFloorMapOfVisibility() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkFloorMapOfVisibility(const vtkFloorMapOfVisibility&) = delete;
+  void operator=(const vtkFloorMapOfVisibility&) = delete;
+
+  void CheckProperties() const;
+  void Compute(vtkDataObject* input, vtkImageData* output);
+
+  double EyeHeight = 1.7;
+  int Resolution[2] = {12, 8};
+  double Bounds[6] = {1.0, -1.0, 1.0, -1.0, 1.0, -1.0};
+  double ContrastThreshold = 0.2;
+  double DarkLuminance = 0.1;
+  double CutOff = 0.0;
+  double Acuity = 1.0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
+};
+
+#endif

@@ -1,0 +1,140 @@
+/**
+ * @class   vtkLuminaireSource
+ * @brief   plane lamps, one or a grid of them
+ *
+ * Makes rectangular lamps that shine evenly (Lambertian) from their front, the right-hand side of
+ * their quads. The output has a quad a lamp, with the cell arrays `Luminance` [cd/m2], `SignId`
+ * (-1: a lamp, not a sign) and `Reflectance`.
+ */
+#ifndef vtkLuminaireSource_h
+#define vtkLuminaireSource_h
+
+#include "SmokeFiltersModule.h"
+#include <vtkPolyDataAlgorithm.h>
+
+class SMOKEFILTERS_EXPORT vtkLuminaireSource : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkLuminaireSource* New();
+  vtkTypeMacro(vtkLuminaireSource, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Centre of the lamp, or of the grid of lamps [m]. Default: (0, 0, 0).
+   */
+  vtkSetVector3Macro(Center, double);
+  vtkGetVector3Macro(Center, double);
+  ///@}
+
+  ///@{
+  /**
+   * Direction that the lamps shine to, of any length but 0. Default: (0, 0, -1), downwards.
+   */
+  vtkSetVector3Macro(Normal, double);
+  vtkGetVector3Macro(Normal, double);
+  ///@}
+
+  ///@{
+  /**
+   * Direction of the lamps' height and of the grid's second axis; its part along the normal does
+   * not matter. Where it is parallel to the normal, y (or else x) takes its place. Default: (0, 1,
+   * 0).
+   */
+  vtkSetVector3Macro(Up, double);
+  vtkGetVector3Macro(Up, double);
+  ///@}
+
+  ///@{
+  /**
+   * Width of a lamp [m], above 0. Default: 0.6.
+   */
+  vtkSetMacro(Width, double);
+  vtkGetMacro(Width, double);
+  ///@}
+
+  ///@{
+  /**
+   * Height of a lamp [m], above 0. Default: 0.6.
+   */
+  vtkSetMacro(Height, double);
+  vtkGetMacro(Height, double);
+  ///@}
+
+  ///@{
+  /**
+   * Photometric luminance of the lamps [cd/m2], from 0; counts while LuminousFlux is 0. Default:
+   * 3000.
+   */
+  vtkSetMacro(Luminance, double);
+  vtkGetMacro(Luminance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Luminous flux of each lamp [lm], from 0. Above 0 it sets the luminance: flux / (pi area).
+   * Default: 0.
+   */
+  vtkSetMacro(LuminousFlux, double);
+  vtkGetMacro(LuminousFlux, double);
+  ///@}
+
+  ///@{
+  /**
+   * Colour of the light, linear red, green and blue from 0 to 1. Only the ratios count: the bands
+   * are scaled so that 0.2126 R + 0.7152 G + 0.0722 B is the luminance. Default: white, (1, 1, 1).
+   */
+  vtkSetVector3Macro(Color, double);
+  vtkGetVector3Macro(Color, double);
+  ///@}
+
+  ///@{
+  /**
+   * Diffuse reflectance of the lamps, 0 to 1. Default: 0.
+   */
+  vtkSetMacro(Reflectance, double);
+  vtkGetMacro(Reflectance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Lamps along the grid's first axis (the lamps' width) and its second (their height), 1 to 10000
+   * each and at most a million together. Default: (1, 1).
+   */
+  vtkSetVector2Macro(Count, int);
+  vtkGetVector2Macro(Count, int);
+  ///@}
+
+  ///@{
+  /**
+   * Distance between the centres of neighbouring lamps along the two axes [m], at least the lamps'
+   * width and height. Default: (3, 3).
+   */
+  vtkSetVector2Macro(Spacing, double);
+  vtkGetVector2Macro(Spacing, double);
+  ///@}
+
+protected:
+  vtkLuminaireSource();
+  ~vtkLuminaireSource() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkLuminaireSource(const vtkLuminaireSource&) = delete;
+  void operator=(const vtkLuminaireSource&) = delete;
+
+  double Center[3] = {0.0, 0.0, 0.0};
+  double Normal[3] = {0.0, 0.0, -1.0};
+  double Up[3] = {0.0, 1.0, 0.0};
+  double Width = 0.6;
+  double Height = 0.6;
+  double Luminance = 3000.0;
+  double LuminousFlux = 0.0;
+  double Color[3] = {1.0, 1.0, 1.0};
+  double Reflectance = 0.0;
+  int Count[2] = {1, 1};
+  double Spacing[2] = {3.0, 3.0};
+};
+
+#endif

@@ -1,0 +1,347 @@
+#include "vtkSmokeLightField.h"
+
+#include "Errors.h"
+#include "LightFieldArrays.h"
+#include "LightFieldInput.h"
+#include "PipelineProgress.h"
+#include "SceneBuilder.h"
+#include "SurfaceRefiner.h"
+#include "WholeInput.h"
+
+#include <vtkBoundingBox.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPartitionedDataSet.h>
+#include <vtkPartitionedDataSetCollection.h>
+
+#include <cmath>
+#include <limits>
+
+vtkStandardNewMacro(vtkSmokeLightField);
+
+namespace
+{
+
+/// Wavelength that extinction coefficients are given for [nm].
+constexpr double ReferenceWavelength = 633.0;
+/// FDS's own default.
+constexpr double DefaultAlbedo = 0.3;
+/// Patches along the diagonal of all geometry.
+constexpr double AutomaticPatches = 50.0;
+
+using smokevis::Error;
+using smokevis::SceneBlocks;
+using smokevis::SurfaceBlock;
+
+std::vector<SurfaceBlock> CollectPort(vtkInformationVector* port, const std::string& name)
+{
+  std::vector<SurfaceBlock> blocks;
+  const int count = port->GetNumberOfInformationObjects();
+  for (int i = 0; i < count; ++i)
+  {
+    for (SurfaceBlock& block : smokevis::CollectSurfaces(
+           vtkDataObject::GetData(port, i), count == 1 ? name : name + " " + std::to_string(i + 1)))
+    {
+      blocks.push_back(std::move(block));
+    }
+  }
+  return blocks;
+}
+
+void AddDefaultReflectance(vtkPolyData& mesh, double reflectance)
+{
+  if (mesh.GetCellData()->HasArray("Reflectance"))
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Reflectance");
+  array->SetNumberOfTuples(mesh.GetNumberOfCells());
+  array->Fill(reflectance);
+  mesh.GetCellData()->AddArray(array);
+}
+
+double Diagonal(const SceneBlocks& blocks)
+{
+  vtkBoundingBox box;
+  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+  {
+    box.AddBounds(block.Grid->GetBounds());
+  }
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (const SurfaceBlock& block : *group)
+    {
+      box.AddBounds(block.Mesh->GetBounds());
+    }
+  }
+  return box.GetDiagonalLength();
+}
+
+/// Cuts the blocks and drops those of which nothing is left. Returns the number of patches.
+std::size_t Refine(std::vector<SurfaceBlock>& blocks, double patchSize)
+{
+  std::size_t patches = 0;
+  std::vector<SurfaceBlock> refined;
+  for (const SurfaceBlock& block : blocks)
+  {
+    const auto mesh = smokevis::RefineSurface(block.Mesh, block.Name, patchSize);
+    if (mesh->GetNumberOfCells() > 0)
+    {
+      patches += mesh->GetNumberOfCells();
+      refined.push_back({block.Name, mesh});
+    }
+  }
+  blocks = std::move(refined);
+  return patches;
+}
+
+template <class Block>
+void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, const char* name,
+  const std::vector<Block>& blocks)
+{
+  vtkNew<vtkPartitionedDataSet> partitions;
+  partitions->SetNumberOfPartitions(static_cast<unsigned int>(blocks.size()));
+  for (unsigned int i = 0; i < blocks.size(); ++i)
+  {
+    if constexpr (std::is_same_v<Block, smokevis::SmokeBlock>)
+    {
+      partitions->SetPartition(i, blocks[i].Grid);
+    }
+    else
+    {
+      partitions->SetPartition(i, blocks[i].Mesh);
+    }
+    partitions->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), blocks[i].Name.c_str());
+  }
+  output->SetPartitionedDataSet(index, partitions);
+  output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSmokeLightField::vtkSmokeLightField()
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Collections come first: the pipeline then hands them over whole.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  if (port > 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    smokevis::RequestWholeInputs(inputVector[port]);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::CheckProperties() const
+{
+  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
+  {
+    if (!good)
+    {
+      throw Error(name, what, remedy);
+    }
+  };
+  check(this->Albedo <= 1.0, "Albedo", "it is above 1", "Give 0 to 1, or -1 for the smoke's own");
+  check(std::abs(this->AngstromExponent) <= 10.0, "AngstromExponent", "it is outside -10 to 10",
+    "Give 1 for soot of flaming fires");
+  check(this->Bands == LUMINANCE || this->Bands == RGB, "Bands", "it is neither 1 nor 3",
+    "Choose Luminance or RGB");
+  for (const double wavelength : this->Wavelengths)
+  {
+    check(wavelength > 0.0 && std::isfinite(wavelength), "Wavelengths", "one is not positive",
+      "Give wavelengths in nm");
+  }
+  check(this->DefaultReflectance >= 0.0 && this->DefaultReflectance <= 1.0, "DefaultReflectance",
+    "it is outside 0 to 1", "Give a diffuse reflectance");
+  check(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance",
+    "it is not above 0 and at most 1", "Give 0.01 for 1 %");
+  check(this->Seed >= 0, "Seed", "it is negative", "Give a whole number from 0");
+  check(this->PatchSize >= 0.0 && std::isfinite(this->PatchSize), "PatchSize",
+    "it is negative or not finite", "Give a length in metres, or 0 for an automatic one");
+  check(this->Threads >= 0, "Threads", "it is negative", "Give 0 for all of the machine");
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::Solve(
+  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+{
+  this->CheckProperties();
+  std::vector<smokevis::WorkItem> report;
+  vtkDataObject* const smoke = vtkDataObject::GetData(inputs[0]);
+  SceneBlocks blocks;
+  blocks.Smoke = smokevis::CollectSmoke(smoke, "Smoke");
+  blocks.Surfaces = CollectPort(inputs[1], "Surfaces");
+  blocks.Emitters = CollectPort(inputs[2], "Emitters");
+  if (blocks.Smoke.empty())
+  {
+    throw Error("Smoke", "the input holds no grid",
+      "Connect a reader of smoke, or an image with Extinction 0 for clear air");
+  }
+  bool smokeEmits = false;
+  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+  {
+    smokeEmits = smokeEmits || block.Grid->GetCellData()->HasArray("EmittedLuminance");
+  }
+
+  const double patchSize =
+    this->PatchSize > 0.0 ? this->PatchSize : Diagonal(blocks) / AutomaticPatches;
+  for (const SurfaceBlock& block : blocks.Surfaces)
+  {
+    AddDefaultReflectance(*block.Mesh, this->DefaultReflectance);
+  }
+  report.push_back({"Surface patches", static_cast<double>(Refine(blocks.Surfaces, patchSize)),
+    "surfaces are cut to edges of at most " + std::to_string(patchSize) + " m"});
+  Refine(blocks.Emitters, std::numeric_limits<double>::infinity());
+  if (blocks.Emitters.empty() && !smokeEmits)
+  {
+    throw Error("Emitters", "nothing gives light",
+      "Connect signs or lamps, such as the sources ExitSign and Luminaire");
+  }
+
+  smokevis::SceneOptions options;
+  options.Bands = this->Bands;
+  if (this->Bands == RGB)
+  {
+    for (int band = 0; band < this->Bands; ++band)
+    {
+      options.ExtinctionScale[band] =
+        std::pow(ReferenceWavelength / this->Wavelengths[band], this->AngstromExponent);
+    }
+  }
+  options.Albedo = this->Albedo;
+  const char* why = "the property";
+  if (this->Albedo < 0.0)
+  {
+    const bool given = smokevis::FieldNumber(smoke, "Albedo", 0, options.Albedo);
+    options.Albedo = given ? options.Albedo : DefaultAlbedo;
+    why = given ? "the smoke's field data" : "neither property nor smoke gave one";
+    if (!(options.Albedo >= 0.0 && options.Albedo <= 1.0))
+    {
+      throw Error(
+        "field data Albedo of the smoke", "it is outside 0 to 1", "Set the property Albedo");
+    }
+  }
+  report.push_back({"Albedo", options.Albedo, why});
+
+  smokevis::SceneDescription description = smokevis::BuildScene(blocks, options);
+  if (this->Bands == RGB && smokevis::BandsAreEqual(description))
+  {
+    description.Bands = 1;
+    report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
+  }
+  const smokevis::Scene scene(std::move(description));
+  smokevis::LightFieldOptions solver;
+  solver.Tolerance = this->Tolerance;
+  solver.Seed = static_cast<std::uint64_t>(this->Seed);
+  solver.Threads = this->Threads;
+  smokevis::PipelineProgress progress(this, 0.02, 0.98);
+  smokevis::LightField field = smokevis::SolveLightField(scene, solver, progress);
+  report.insert(report.end(), field.Report.begin(), field.Report.end());
+  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+
+  output->SetNumberOfPartitionedDataSets(3);
+  AddPartitions(output, 0, "Smoke", blocks.Smoke);
+  AddPartitions(output, 1, "Surfaces", blocks.Surfaces);
+  AddPartitions(output, 2, "Emitters", blocks.Emitters);
+
+  // File formats drop the field data of a collection, so a block of each kind has them as well.
+  std::vector<vtkDataObject*> targets = {output};
+  for (unsigned int i = 0; i < output->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    if (output->GetNumberOfPartitions(i) > 0)
+    {
+      targets.push_back(output->GetPartitionAsDataObject(i, 0));
+    }
+  }
+  for (vtkDataObject* const target : targets)
+  {
+    vtkNew<vtkFieldData> fields;
+    fields->PassData(target->GetFieldData());
+    fields->PassData(smoke->GetFieldData());
+    target->SetFieldData(fields);
+    smokevis::AddFieldNumber(*target, "Albedo", {options.Albedo});
+    smokevis::AddFieldNumber(*target, "AngstromExponent", {this->AngstromExponent});
+    smokevis::AddFieldNumber(*target, "Bands", {static_cast<double>(this->Bands)});
+    const smokevis::Spectrum& scale = options.ExtinctionScale;
+    if (this->Bands == RGB)
+    {
+      smokevis::AddFieldNumber(*target, "ExtinctionScale", {scale[0], scale[1], scale[2]});
+    }
+    else
+    {
+      smokevis::AddFieldNumber(*target, "ExtinctionScale", {scale[0]});
+    }
+    smokevis::AddFieldNumber(*target, "Tolerance", {this->Tolerance});
+    smokevis::AddFieldNumber(*target, "Seed", {static_cast<double>(this->Seed)});
+    vtkInformation* const info = smoke->GetInformation();
+    if (info->Has(vtkDataObject::DATA_TIME_STEP()))
+    {
+      const double time = info->Get(vtkDataObject::DATA_TIME_STEP());
+      smokevis::AddFieldNumber(*target, "Time", {time});
+      target->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    }
+    smokevis::AddWorkReport(*target, report);
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
+  try
+  {
+    this->Solve(inputVector, output);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    if (this->GetAbortOutput())
+    {
+      return 1;
+    }
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Albedo: " << this->Albedo << "\n";
+  os << indent << "AngstromExponent: " << this->AngstromExponent << "\n";
+  os << indent << "Bands: " << this->Bands << "\n";
+  os << indent << "Wavelengths: (" << this->Wavelengths[0] << ", " << this->Wavelengths[1] << ", "
+     << this->Wavelengths[2] << ")\n";
+  os << indent << "DefaultReflectance: " << this->DefaultReflectance << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "PatchSize: " << this->PatchSize << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+}

@@ -1,0 +1,167 @@
+/**
+ * @class   vtkSmokeLightField
+ * @brief   the light in smoke and on surfaces, from which any number of views can be made
+ *
+ * Solves the radiative transfer equation for visible light in smoke (isotropic scattering, diffuse
+ * surfaces) and puts out the smoke, surfaces and emitters with the light that reaches them.
+ *
+ * Inputs, single data sets or collections of them:
+ * - port 0, Smoke: vtkImageData or vtkRectilinearGrid with `Extinction`, 1 component, the
+ * extinction coefficient at 633 nm [1/m] of cells, or of points (then averaged to cells). Optional
+ * on cells: `EmittedLuminance`, 1 component, the luminance of flames [cd/m2]. Where grids overlap
+ * the one with the smaller cells counts. Hidden cells count as clear.
+ * - port 1, Surfaces (optional, several): `Reflectance`, 1 or 3 components, 0 to 1, of cells.
+ * - port 2, Emitters (optional where smoke emits, several): `Luminance` [cd/m2], 1 or 3 components,
+ * of cells, sent out from the front (the right-hand side). Optional: `EmissionExponent` n for
+ *   luminance times cos^n, `SignId` (int, -1: a lamp), `SignName` (string), `Reflectance`.
+ *
+ * Output: a collection of the partitioned data sets `Smoke`, `Surfaces` and `Emitters`, which keeps
+ * all input arrays and can be saved and read back. Added cell arrays, float, a component a band
+ * unless said otherwise:
+ * - smoke: `Fluence` and its standard error `FluenceError` [lx]; `DirectFluence`, its part that
+ * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band;
+ * - surfaces and emitters: `Illuminance` of the front and its standard error `IlluminanceError`
+ * [lx]; `IlluminanceBack`; `DirectIlluminance`, front and back of each band; `MultipleIlluminance`,
+ * 16 batches of the front, then the back, of each band. Surfaces are cut into patches; `ParentCell`
+ * is the input cell of each.
+ *
+ * Field data of the output: `Albedo`, `AngstromExponent`, `Bands`, `ExtinctionScale` (a value a
+ * band), `Tolerance`, `Seed`, `Time` [s] where the smoke has one, and what was done and left out as
+ * `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ *
+ * @par References
+ * Q. Zhang, P. A. Rubini, Modelling of light extinction by soot particles, Fire Safety Journal 46
+ * (2011); J. R. Tramm et al., The random ray method for neutral particle transport, J. Comput.
+ * Phys. 342 (2017).
+ */
+#ifndef vtkSmokeLightField_h
+#define vtkSmokeLightField_h
+
+#include "SmokeFiltersModule.h"
+#include <vtkPartitionedDataSetCollectionAlgorithm.h>
+
+class SMOKEFILTERS_EXPORT vtkSmokeLightField : public vtkPartitionedDataSetCollectionAlgorithm
+{
+public:
+  static vtkSmokeLightField* New();
+  vtkTypeMacro(vtkSmokeLightField, vtkPartitionedDataSetCollectionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Disconnect all inputs of one kind.
+   */
+  void RemoveAllSurfaces() { this->SetInputConnection(1, nullptr); }
+  void RemoveAllEmitters() { this->SetInputConnection(2, nullptr); }
+  ///@}
+
+  ///@{
+  /**
+   * Single-scattering albedo of the smoke, 0 to 1. Below 0: the field data `Albedo` of the smoke,
+   * which the FDS reader fills from the run, else 0.3. Default: -1.
+   */
+  vtkSetMacro(Albedo, double);
+  vtkGetMacro(Albedo, double);
+  ///@}
+
+  ///@{
+  /**
+   * With three bands, the exponent alpha by which extinction grows towards short waves,
+   * (633 nm / wavelength)^alpha, -10 to 10. Default: 1, soot of flaming fires.
+   */
+  vtkSetMacro(AngstromExponent, double);
+  vtkGetMacro(AngstromExponent, double);
+  ///@}
+
+  enum BandModes
+  {
+    LUMINANCE = 1,
+    RGB = 3
+  };
+
+  ///@{
+  /**
+   * LUMINANCE: one band, extinction as given. RGB: red, green and blue. Default: LUMINANCE.
+   */
+  vtkSetMacro(Bands, int);
+  vtkGetMacro(Bands, int);
+  ///@}
+
+  ///@{
+  /**
+   * Wavelengths of red, green and blue [nm], above 0. Default: (630, 532, 465).
+   */
+  vtkSetVector3Macro(Wavelengths, double);
+  vtkGetVector3Macro(Wavelengths, double);
+  ///@}
+
+  ///@{
+  /**
+   * Reflectance of surfaces that bring none, 0 to 1. Default: 0.5.
+   */
+  vtkSetMacro(DefaultReflectance, double);
+  vtkGetMacro(DefaultReflectance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Relative standard error that luminances of the veil are to have, above 0, at most 1.
+   * Default: 0.01.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the random numbers, from 0. The same seed gives the same bits. Default: 1.
+   */
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * Longest edge of the patches that surfaces are cut into [m]; 0: a fiftieth of the diagonal of
+   * all geometry. Default: 0.
+   */
+  vtkSetMacro(PatchSize, double);
+  vtkGetMacro(PatchSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Most worker threads, from 0; 0: as many as the machine has. The result does not depend on it.
+   * Default: 0.
+   */
+  vtkSetMacro(Threads, int);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+protected:
+  vtkSmokeLightField();
+  ~vtkSmokeLightField() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkSmokeLightField(const vtkSmokeLightField&) = delete;
+  void operator=(const vtkSmokeLightField&) = delete;
+
+  void CheckProperties() const;
+  void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+
+  double Albedo = -1.0;
+  double AngstromExponent = 1.0;
+  int Bands = LUMINANCE;
+  double Wavelengths[3] = {630.0, 532.0, 465.0};
+  double DefaultReflectance = 0.5;
+  double Tolerance = 0.01;
+  int Seed = 1;
+  double PatchSize = 0.0;
+  int Threads = 0;
+};
+
+#endif

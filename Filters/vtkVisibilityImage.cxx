@@ -1,0 +1,302 @@
+#include "vtkVisibilityImage.h"
+
+#include "Contrast.h"
+#include "Errors.h"
+#include "ImageTracer.h"
+#include "LightFieldInput.h"
+#include "PipelineProgress.h"
+#include "WholeInput.h"
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+vtkStandardNewMacro(vtkVisibilityImage);
+
+struct vtkVisibilityImage::Internals
+{
+  smokevis::LightFieldInput Input;
+};
+
+namespace
+{
+
+constexpr std::int64_t MaximumPixels = 100000000;
+constexpr std::size_t NoSign = static_cast<std::size_t>(-1);
+
+using smokevis::Error;
+using smokevis::Vec3;
+
+Vec3 Vector(const double* values)
+{
+  return {values[0], values[1], values[2]};
+}
+
+void AddFloats(
+  vtkImageData* image, const char* name, const std::vector<float>& values, int components = 1)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  if (components == 3)
+  {
+    array->SetComponentName(0, "R");
+    array->SetComponentName(1, "G");
+    array->SetComponentName(2, "B");
+  }
+  image->GetPointData()->AddArray(array);
+}
+
+/// Index of the sign with an id.
+std::size_t FindSign(const smokevis::View& view, int id)
+{
+  const auto& signs = view.TheScene().Lights().Signs();
+  const auto found = std::find_if(
+    signs.begin(), signs.end(), [id](const smokevis::Sign& sign) { return sign.Id == id; });
+  return found == signs.end() ? NoSign : static_cast<std::size_t>(found - signs.begin());
+}
+
+/// The sign that most pixels show, or none.
+int LargestSign(const std::vector<int>& signIds)
+{
+  std::map<int, std::size_t> pixels;
+  for (const int id : signIds)
+  {
+    if (id >= 0)
+    {
+      ++pixels[id];
+    }
+  }
+  int largest = -1;
+  std::size_t most = 0;
+  for (const auto& [id, count] : pixels)
+  {
+    if (count > most)
+    {
+      most = count;
+      largest = id;
+    }
+  }
+  return largest;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkVisibilityImage::~vtkVisibilityImage() = default;
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* const info = outputVector->GetInformationObject(0);
+  const int extent[6] = {
+    0, std::max(1, this->ImageSize[0]) - 1, 0, std::max(1, this->ImageSize[1]) - 1, 0, 0};
+  const double origin[3] = {0.0, 0.0, 0.0};
+  const double spacing[3] = {1.0, 1.0, 1.0};
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkDataObject::ORIGIN(), origin, 3);
+  info->Set(vtkDataObject::SPACING(), spacing, 3);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  smokevis::RequestWholeInputs(inputVector[0]);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::CheckProperties() const
+{
+  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
+  {
+    if (!good)
+    {
+      throw Error(name, what, remedy);
+    }
+  };
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  const auto notNegative = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  check(this->ImageSize[0] > 0 && this->ImageSize[1] > 0, "ImageSize", "it is not positive",
+    "Give a width and a height in pixels");
+  check(static_cast<std::int64_t>(this->ImageSize[0]) * this->ImageSize[1] <= MaximumPixels,
+    "ImageSize", "the image has more than 100 million pixels", "Give a smaller image");
+  check(std::all_of(this->CameraPosition, this->CameraPosition + 3,
+          [](double value) { return std::isfinite(value); }),
+    "CameraPosition", "it is not finite", "Give a point in metres");
+  check(positive(this->FocalLength), "FocalLength", "it is not positive", "Give it in mm");
+  check(positive(this->SensorSize[0]) && positive(this->SensorSize[1]), "SensorSize",
+    "it is not positive", "Give it in mm");
+  check(positive(this->FNumber), "FNumber", "it is not positive", "Give 2.8, for example");
+  check(notNegative(this->Margin), "Margin", "it is negative", "Give a share from 0");
+  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
+    "Give a luminance in cd/m2 from 0");
+  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
+}
+
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
+{
+  this->CheckProperties();
+  const smokevis::View& view = this->Implementation->Input.Get(input);
+  const Vec3 eye = Vector(this->CameraPosition);
+  if (view.InsideSolid(eye))
+  {
+    throw Error("CameraPosition", "it lies inside a solid", "Move the camera into the open");
+  }
+
+  smokevis::Camera camera;
+  std::size_t sign = NoSign;
+  if (this->TargetSign >= 0)
+  {
+    sign = FindSign(view, this->TargetSign);
+    if (sign == NoSign)
+    {
+      throw Error("TargetSign", "there is no sign " + std::to_string(this->TargetSign),
+        "The signs of this light field: " + this->Implementation->Input.SignIds());
+    }
+    camera = smokevis::Camera::FramePlate(eye, view.TheScene().Lights().Signs()[sign].Corners,
+      Vector(this->CameraViewUp), this->Margin, this->ImageSize[0], this->ImageSize[1]);
+  }
+  else
+  {
+    camera = smokevis::Camera::LookAt(eye, Vector(this->CameraFocalPoint),
+      Vector(this->CameraViewUp), this->FocalLength, this->SensorSize[0], this->SensorSize[1],
+      this->ImageSize[0], this->ImageSize[1]);
+  }
+
+  const double acuity = vtkMath::RadiansFromDegrees(this->Acuity / 60.0);
+  smokevis::PipelineProgress progress(this, 0.1, 0.95);
+  const smokevis::TracedImage image = smokevis::TraceImage(view, camera, acuity, progress);
+
+  output->SetOrigin(0.0, 0.0, 0.0);
+  output->SetSpacing(1.0, 1.0, 1.0);
+  output->SetDimensions(this->ImageSize[0], this->ImageSize[1], 1);
+  AddFloats(output, "Luminance", image.Luminance);
+  AddFloats(output, "LuminanceError", image.LuminanceError);
+  AddFloats(output, "DirectLuminance", image.Direct);
+  AddFloats(output, "VeilLuminance", image.Veil);
+  AddFloats(output, "OpticalDepth", image.OpticalDepth);
+  if (this->Implementation->Input.Bands() == 3)
+  {
+    AddFloats(output, "LuminanceRGB", image.LuminanceRGB, 3);
+  }
+  vtkNew<vtkUnsignedCharArray> mask;
+  mask->SetName("SignMask");
+  mask->SetNumberOfTuples(output->GetNumberOfPoints());
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("SignIds");
+  ids->SetNumberOfTuples(output->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const int id = image.SignIds[i];
+    ids->SetValue(i, id);
+    mask->SetValue(i, id >= 0 && (this->TargetSign < 0 || id == this->TargetSign) ? 1 : 0);
+  }
+  output->GetPointData()->AddArray(mask);
+  output->GetPointData()->AddArray(ids);
+  output->GetPointData()->SetActiveScalars("Luminance");
+
+  const int measured = this->TargetSign >= 0 ? this->TargetSign : LargestSign(image.SignIds);
+  smokevis::SignMeasurement result;
+  if (measured >= 0)
+  {
+    sign = FindSign(view, measured);
+    result = smokevis::MeasureSign(view, sign, eye, {this->DarkLuminance, acuity});
+  }
+  if (this->TargetSign >= 0 && !result.InView)
+  {
+    vtkWarningMacro(
+      "Sign " << this->TargetSign << " is not in view from here: it faces away or is hidden.");
+  }
+  const auto number = [&](const char* name, std::initializer_list<double> values)
+  { smokevis::AddFieldNumber(*output, name, values); };
+  number("MeasuredSign", {static_cast<double>(measured)});
+  number("Contrast", {result.Contrast});
+  number("ContrastError", {result.ContrastError});
+  number("PerceivedContrast", {result.PerceivedContrast});
+  number("PerceivedContrastError", {result.PerceivedContrastError});
+  number("WebberContrast", {result.WebberContrast});
+  number("UL924Contrast", {result.UL924Contrast});
+  number("MeanLuminance", {result.MeanLuminance});
+  number("MeanLuminanceError", {result.MeanLuminanceError});
+  number("LitLuminance", {result.LitLuminance});
+  number("UnlitLuminance", {result.UnlitLuminance});
+  number("VisibleFraction", {result.VisibleFraction});
+  number("OpticalDepthToSign", {result.OpticalDepth});
+  number("SensorIlluminance",
+    {0.25 * vtkMath::Pi() * result.MeanLuminance / (this->FNumber * this->FNumber)});
+  number("CameraPosition", {eye.x, eye.y, eye.z});
+  number("CameraForward", {camera.Forward.x, camera.Forward.y, camera.Forward.z});
+  number("CameraUp", {camera.Up.x, camera.Up.y, camera.Up.z});
+  number("CameraWindow", {camera.Left, camera.RightEdge, camera.Bottom, camera.Top});
+}
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  try
+  {
+    this->Trace(vtkDataObject::GetData(inputVector[0]), output);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    if (this->GetAbortOutput())
+    {
+      return 1;
+    }
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto vector = [&](const char* name, const double* value)
+  { os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n"; };
+  vector("CameraPosition", this->CameraPosition);
+  os << indent << "TargetSign: " << this->TargetSign << "\n";
+  vector("CameraFocalPoint", this->CameraFocalPoint);
+  vector("CameraViewUp", this->CameraViewUp);
+  os << indent << "FocalLength: " << this->FocalLength << "\n";
+  os << indent << "SensorSize: (" << this->SensorSize[0] << ", " << this->SensorSize[1] << ")\n";
+  os << indent << "FNumber: " << this->FNumber << "\n";
+  os << indent << "ImageSize: (" << this->ImageSize[0] << ", " << this->ImageSize[1] << ")\n";
+  os << indent << "Margin: " << this->Margin << "\n";
+  os << indent << "DarkLuminance: " << this->DarkLuminance << "\n";
+  os << indent << "Acuity: " << this->Acuity << "\n";
+}

@@ -1,0 +1,90 @@
+// The extinction coefficient in every cell of every mesh, from the best of what a run wrote.
+#pragma once
+
+#include "SliceFile.h"
+#include "SmvFile.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smokevis
+{
+
+/// Extinction of one mesh at one time.
+struct MeshExtinction
+{
+  /// K [1/m] a cell, x fastest; 0 in solids and where no file has data.
+  std::vector<float> Values;
+  /// Time of the frame that was read [s].
+  double Time = 0.0;
+};
+
+/// Chooses, for each mesh and smoke species, the 3-D slices that give its extinction best, and
+/// reads them. In this order, slices over the whole mesh before slices over parts of it, and
+/// cell-centred before node-centred: EXTINCTION COEFFICIENT, OPTICAL DENSITY (K = 2.3 OD, as FDS
+/// divides by 2.3), DENSITY of a smoke species (K = Km rho), VISIBILITY (K = C/S). Species add.
+class ExtinctionSource
+{
+public:
+  /// @param index            the run; must outlive this object
+  /// @param visibilityFactor C of K = C/S, 3 for light-reflecting signs unless the run said
+  /// otherwise Throws Error when the run wrote no 3-D smoke, or a file that is needed is missing or
+  /// damaged.
+  ExtinctionSource(const SmvFile& index, double visibilityFactor);
+
+  /// Frame times over all meshes [s], increasing.
+  const std::vector<double>& Times() const { return times_; }
+
+  /// The one of Times() that is nearest to @p time, the earlier of two equally near.
+  double NearestTime(double time) const;
+
+  /// Which quantities and files are used.
+  const std::string& Description() const { return description_; }
+
+  /// What is incomplete, e.g. frames cut short or parts of a mesh without data.
+  const std::vector<std::string>& Warnings() const { return warnings_; }
+
+  /// Reads @p mesh at its frame nearest to @p time. @p solid marks the solid cells (see
+  /// SolidCells()), empty for none. Throws Error at a value that is no extinction coefficient.
+  MeshExtinction Read(int mesh, double time, const std::vector<unsigned char>& solid);
+
+private:
+  enum class Quantity
+  {
+    Extinction,
+    OpticalDensity,
+    Density,
+    Visibility
+  };
+  /// A slice that gives one species' extinction.
+  struct Term
+  {
+    const SmvSlice* Slice = nullptr;
+    Quantity Kind = Quantity::Extinction;
+    std::string Species;
+    double MassExtinction = 0.0;
+    bool WholeMesh = false;
+    std::unique_ptr<SliceFile> File;
+  };
+
+  std::vector<Term> Candidates() const;
+  void Choose(std::vector<Term> candidates);
+  void Open(Term& term);
+  void CollectTimes();
+  void Describe();
+  [[noreturn]] void FailWithoutSmoke() const;
+  void Add(Term& term, std::size_t frame, const std::vector<unsigned char>& solid,
+    std::vector<unsigned char>* covered, std::vector<float>& sum) const;
+  double Convert(const Term& term, double value) const;
+
+  const SmvFile& index_;
+  double visibilityFactor_;
+  std::string description_;
+  std::vector<std::string> warnings_;
+  std::vector<double> times_;
+  /// The chosen terms of each mesh, those of one species side by side.
+  std::vector<std::vector<Term>> terms_;
+};
+
+} // namespace smokevis

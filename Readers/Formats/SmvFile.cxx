@@ -1,0 +1,60 @@
+#include "SmvFile.h"
+
+#include "SmvParser.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace smokevis
+{
+
+//------------------------------------------------------------------------------------------------
+bool IsOn(const std::vector<SmvEvent>& events, double time)
+{
+  if (events.empty())
+  {
+    return true;
+  }
+  bool on = !events.front().On;
+  for (const SmvEvent& event : events)
+  {
+    if (event.Time > time)
+    {
+      break;
+    }
+    on = event.On;
+  }
+  return on;
+}
+
+//------------------------------------------------------------------------------------------------
+SmvFile::SmvFile(const std::string& path) : Path(path)
+{
+  SmvParser(*this).Run();
+}
+
+//------------------------------------------------------------------------------------------------
+std::string SmvFile::Resolve(const std::string& name) const
+{
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(Path).parent_path();
+  const fs::path asWritten = folder / name;
+  std::error_code problem;
+  if (name.find('\\') == std::string::npos || fs::exists(asWritten, problem))
+  {
+    return asWritten.string();
+  }
+  std::string slashes = name;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  return (folder / slashes).string();
+}
+
+//------------------------------------------------------------------------------------------------
+int SmvFile::DefaultSurface() const
+{
+  const auto found = std::find_if(Surfaces.begin(), Surfaces.end(),
+    [this](const SmvSurface& surface) { return surface.Name == DefaultSurfaceName; });
+  return found == Surfaces.end() ? 0 : static_cast<int>(found - Surfaces.begin());
+}
+
+} // namespace smokevis
