@@ -52,9 +52,9 @@ void ForEachLeaf(vtkDataObject* object, const std::string& name, const LeafVisit
   for (std::size_t i = 0; i < children.size(); ++i)
   {
     ForEachLeaf(children[i].Object,
-      children[i].Name         ? std::string(children[i].Name)
-        : children.size() == 1 ? name
-                               : name + "[" + std::to_string(i) + "]",
+      children[i].Name       ? std::string(children[i].Name)
+      : children.size() == 1 ? name
+                             : name + "[" + std::to_string(i) + "]",
       visit);
   }
 }
@@ -206,7 +206,7 @@ std::vector<Child> Children(vtkDataObject* object)
   const auto add = [&](vtkDataObject* child, vtkInformation* meta)
   {
     const bool named = meta && meta->Has(vtkCompositeDataSet::NAME());
-    children.push_back({ child, named ? meta->Get(vtkCompositeDataSet::NAME()) : nullptr });
+    children.push_back({child, named ? meta->Get(vtkCompositeDataSet::NAME()) : nullptr});
   };
   if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
   {
