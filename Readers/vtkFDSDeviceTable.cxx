@@ -13,6 +13,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -30,8 +31,7 @@ std::string ReadText(const std::string& path)
   std::ifstream stream(path, std::ios::binary);
   if (problem || !stream)
   {
-    throw Error(path, "the device table cannot be opened",
-      "Copy the file that the index names beside the index");
+    throw Error(path, "the device table cannot be opened", "Check its permissions");
   }
   if (size > static_cast<std::uintmax_t>(std::numeric_limits<int>::max()))
   {
@@ -98,12 +98,12 @@ void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
     array->SetName(name.c_str());
     table->AddColumn(array);
     units->InsertNextValue(column < unitRow->GetNumberOfColumns()
-        ? std::string(Trim(unitRow->GetValue(0, column).ToString()))
-        : std::string());
+                             ? std::string(Trim(unitRow->GetValue(0, column).ToString()))
+                             : std::string());
     const auto device = std::find_if(index.Devices.begin(), index.Devices.end(),
       [&name](const SmvDevice& one) { return one.Name == name; });
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const std::array<double, 3> nowhere{ nan, nan, nan };
+    const std::array<double, 3> nowhere{nan, nan, nan};
     positions->InsertNextTuple(
       device == index.Devices.end() ? nowhere.data() : device->Position.data());
   }
@@ -112,7 +112,7 @@ void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-void ReadDeviceTable(const SmvFile& index, vtkTable* table)
+std::vector<std::string> ReadDeviceTable(const SmvFile& index, vtkTable* table)
 {
   vtkNew<vtkStringArray> units;
   units->SetName("Units");
@@ -120,16 +120,24 @@ void ReadDeviceTable(const SmvFile& index, vtkTable* table)
   positions->SetName("Position");
   positions->SetNumberOfComponents(3);
   vtkNew<vtkTable> result;
+  std::vector<std::string> missing;
   for (const auto& [type, file] : index.Tables)
   {
-    if (type == "devc")
+    const std::string path = index.Resolve(file);
+    std::error_code problem;
+    if (type == "devc" && !std::filesystem::exists(path, problem))
     {
-      AppendTable(index, index.Resolve(file), result, units, positions);
+      missing.push_back(path);
+    }
+    else if (type == "devc")
+    {
+      AppendTable(index, path, result, units, positions);
     }
   }
   result->GetFieldData()->AddArray(units);
   result->GetFieldData()->AddArray(positions);
   table->ShallowCopy(result);
+  return missing;
 }
 
 } // namespace smokevis

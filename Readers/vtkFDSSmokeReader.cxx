@@ -121,8 +121,7 @@ struct vtkFDSSmokeReader::vtkInternals
 };
 
 //------------------------------------------------------------------------------------------------
-vtkFDSSmokeReader::vtkFDSSmokeReader()
-  : Internals(std::make_unique<vtkInternals>())
+vtkFDSSmokeReader::vtkFDSSmokeReader() : Internals(std::make_unique<vtkInternals>())
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(NumberOfPorts);
@@ -146,15 +145,15 @@ void vtkFDSSmokeReader::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------------------------
 int vtkFDSSmokeReader::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  static constexpr const char* types[NumberOfPorts] = { "vtkPartitionedDataSetCollection",
-    "vtkPolyData", "vtkTable" };
+  static constexpr const char* types[NumberOfPorts] = {
+    "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkTable"};
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
 //------------------------------------------------------------------------------------------------
-int vtkFDSSmokeReader::ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector)
+int vtkFDSSmokeReader::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
   {
@@ -178,13 +177,14 @@ void vtkFDSSmokeReader::LoadIndex()
 {
   if (!this->FileName || !*this->FileName)
   {
-    throw smokevis::Error("FDS reader", "no file name is set", "Set FileName to the run's .smv file");
+    throw smokevis::Error(
+      "FDS reader", "no file name is set", "Set FileName to the run's .smv file");
   }
   vtkInternals& own = *this->Internals;
   std::error_code problem;
   const auto stamp = std::filesystem::last_write_time(this->FileName, problem);
-  const bool sameIndex = own.Index && !problem && own.LoadedName == this->FileName &&
-    own.LoadedStamp == stamp;
+  const bool sameIndex =
+    own.Index && !problem && own.LoadedName == this->FileName && own.LoadedStamp == stamp;
   if (sameIndex && own.LoadedVisibilityFactor == this->VisibilityFactor)
   {
     return;
@@ -239,12 +239,12 @@ int vtkFDSSmokeReader::RequestInformation(
     }
   }
   const std::vector<double> steps(times.begin(), times.end());
-  const std::array<double, 2> range{ steps.front(), steps.back() };
-  for (const int port : { SmokePort, GeometryPort })
+  const std::array<double, 2> range{steps.front(), steps.back()};
+  for (const int port : {SmokePort, GeometryPort})
   {
     vtkInformation* info = outputVector->GetInformationObject(port);
-    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(),
-      static_cast<int>(steps.size()));
+    info->Set(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
     info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
   }
   return 1;
@@ -295,7 +295,13 @@ int vtkFDSSmokeReader::RequestData(
     }
     if (isWanted(DevicesPort))
     {
-      smokevis::ReadDeviceTable(*own.Index, vtkTable::GetData(outputVector, DevicesPort));
+      vtkTable* devices = vtkTable::GetData(outputVector, DevicesPort);
+      for (const std::string& missing : smokevis::ReadDeviceTable(*own.Index, devices))
+      {
+        vtkWarningMacro(<< missing
+                        << ": the device table is missing, so Devices is empty. Copy the "
+                        << "file that the index names beside the index.");
+      }
     }
   }
   catch (const std::exception& error)
@@ -389,14 +395,15 @@ void vtkFDSSmokeReader::ReadGeometry(double time, vtkPolyData* output)
   vtkInternals& own = *this->Internals;
   const std::vector<bool> changes = ChangesAt(*own.Index, time);
   if (!own.Geometry || own.GeometryChanges != changes ||
-    own.GeometryThreshold != this->TransparencyThreshold)
+      own.GeometryThreshold != this->TransparencyThreshold)
   {
     smokevis::WallBuilder builder(*own.Index, time, this->TransparencyThreshold);
     const std::vector<smokevis::WallQuad> quads = builder.Build();
     if (builder.FoundMirror())
     {
-      vtkWarningMacro("The run has MIRROR boundaries: they are taken as diffuse walls, and what they "
-                      "would mirror is missing from images.");
+      vtkWarningMacro(
+        "The run has MIRROR boundaries: they are taken as diffuse walls, and what they "
+        "would mirror is missing from images.");
     }
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();

@@ -2,8 +2,9 @@
  * @class vtkFDSSmokeReader
  * @brief Reads smoke, walls and device measurements of an FDS run.
  *
- * The input is the index that FDS writes for Smokeview, CHID.smv, with the files it names beside it.
- * Files that an output does not need may be missing. An output is read only when it is asked for.
+ * The input is the index that FDS writes for Smokeview, CHID.smv, with the files it names beside
+ * it. Files that an output does not need may be missing. An output is read only when it is asked
+ * for.
  *
  * Output 0, Smoke, is a vtkPartitionedDataSetCollection with one vtkRectilinearGrid a mesh, named
  * after the mesh, with two cell arrays:
@@ -14,7 +15,8 @@
  *
  * Its field data, on the collection and on each grid, are `ExtinctionSource` (string: the
  * quantities and files used), `Albedo` (double, 0 to 1: single-scattering albedo that the run
- * used, 0.3 where the index does not say), `Time` (double: time of the frame [s]) and `CHID` (string).
+ * used, 0.3 where the index does not say), `Time` (double: time of the frame [s]) and `CHID`
+ * (string).
  *
  * K comes from 3-D slices, cell-centred rather than node-centred: EXTINCTION COEFFICIENT, else
  * OPTICAL DENSITY, else DENSITY of the smoke species, else VISIBILITY. Smoke species add. Of
@@ -22,8 +24,8 @@
  *
  * Output 1, Geometry, is a vtkPolyData of rectangles with their front towards the gas: obstructions
  * and the outer boundaries of the meshes that are not open. Cell arrays:
- *  - `Reflectance` (float, 3 components, 0 to 1): linear red, green, blue from the sRGB colour of the
- *    obstruction, else of the surface.
+ *  - `Reflectance` (float, 3 components, 0 to 1): linear red, green, blue from the sRGB colour of
+ * the obstruction, else of the surface.
  *  - `SurfaceName` (string): FDS's name of the surface.
  *
  * Output 2, Devices, is a vtkTable with a column `Time` [s] and one a device; its field data name
@@ -36,8 +38,8 @@
 #ifndef vtkFDSSmokeReader_h
 #define vtkFDSSmokeReader_h
 
-#include "vtkPartitionedDataSetCollectionAlgorithm.h"
 #include "SmokeReadersModule.h" // for the export macro
+#include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 

@@ -16,6 +16,8 @@ namespace
 /// (r/d)^2. A leaf has a closed form, so it turns into a point only where that costs digits no more.
 constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
+/// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
+constexpr double DeepestDepth = 100.0;
 /// One way stands for all ways to a group below this r/d.
 constexpr double PathRatio = 0.35;
 /// A leaf is split in four above this r/d, where three Gauss points an edge do not follow its
@@ -70,34 +72,9 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
 
 } // namespace
 
-DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Vec3& point) const
+double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
 {
   const Geometry& shapes = this->Scene_.Shapes();
-  const Vec3 to = group.Centre - point;
-  const double distance = glm::length(to);
-  Path path{ 0.0, 1.0 };
-  if (!(distance > 0.0))
-  {
-    return path;
-  }
-  const double depth = this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
-  path.MeanExtinction = depth / distance;
-  // Light that is dimmed beyond single precision needs no shadows.
-  double least = this->Scene_.ExtinctionScale(0);
-  for (int band = 1; band < this->Scene_.Bands(); ++band)
-  {
-    least = std::min(least, this->Scene_.ExtinctionScale(band));
-  }
-  if (depth * least > 100.0)
-  {
-    path.Visible = 0.0;
-    return path;
-  }
-  if (group.Radius < 0.05 * distance)
-  {
-    path.Visible = shapes.Visible(point, group.Centre) ? 1.0 : 0.0;
-    return path;
-  }
   int visible = 0;
   int tried = 0;
   const auto tryPoint = [&](const Vec3& target)
@@ -130,8 +107,56 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Vec3& p
       tryPoint(groups[grandchild + 1].Centre);
     }
   }
-  path.Visible = static_cast<double>(visible) / tried;
-  return path;
+  return static_cast<double>(visible) / tried;
+}
+
+DirectLight::Path DirectLight::SamplePath(
+  const LightGroup& group, const Receiver& receiver) const
+{
+  const Vec3& point = receiver.Point;
+  const Vec3 to = group.Centre - point;
+  const double distance = glm::length(to);
+  if (!(distance > 0.0))
+  {
+    return { 0.0, 1.0 };
+  }
+  const double depth = this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
+  double least = this->Scene_.ExtinctionScale(0);
+  for (int band = 1; band < this->Scene_.Bands(); ++band)
+  {
+    least = std::min(least, this->Scene_.ExtinctionScale(band));
+  }
+  double visible = 1.0;
+  if (depth * least > DeepestDepth)
+  {
+    visible = 0.0;
+  }
+  else if (!receiver.Clear)
+  {
+    visible = group.Radius < 0.05 * distance
+      ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
+      : this->VisibleShare(group, point);
+  }
+  return { depth / distance, visible };
+}
+
+bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
+  const Vec3 size = this->Scene_.Smoke().CellSize(cell);
+  // Slightly inside, since cells often end at walls.
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 shift(
+      corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
+    if (this->VisibleShare(root, centre + shift * size) < 1.0)
+    {
+      return false;
+    }
+  }
+  return this->VisibleShare(root, centre) == 1.0;
 }
 
 void DirectLight::AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
@@ -229,7 +254,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   const bool last = leaf && splits == 0;
   if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
   {
-    own = this->SamplePath(group, receiver.Point);
+    own = this->SamplePath(group, receiver);
     path = &own;
   }
   if (path != nullptr && path->Visible == 0.0)
@@ -263,12 +288,12 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   }
 }
 
-Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point) const
+Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
   this->Gather(
-    lights.Groups()[lights.Lights()[light]], { point, std::nullopt }, nullptr, LeafSplits, sum);
+    lights.Groups()[lights.Lights()[light]], { point, std::nullopt, clear }, nullptr, LeafSplits, sum);
   return sum;
 }
 
@@ -278,18 +303,24 @@ Spectrum DirectLight::Illuminance(
   const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
   this->Gather(
-    lights.Groups()[lights.Lights()[light]], { point, normal }, nullptr, LeafSplits, sum);
+    lights.Groups()[lights.Lights()[light]], { point, normal, false }, nullptr, LeafSplits, sum);
   return sum;
 }
 
 Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  return this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), BoxSplits);
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  const double distance = std::max(0.0, glm::length(centre - root.Centre) - root.Radius);
+  const bool splits = std::max({ size.x, size.y, size.z }) > BoxRatio * distance;
+  return this->BoxFluence(light, centre, size, BoxSplits, splits && this->Clear(light, cell));
 }
 
 Spectrum DirectLight::BoxFluence(
-  std::size_t light, const Vec3& centre, const Vec3& size, int splits) const
+  std::size_t light, const Vec3& centre, const Vec3& size, int splits, bool clear) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
@@ -309,7 +340,7 @@ Spectrum DirectLight::BoxFluence(
     {
       const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
       const Spectrum value =
-        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1);
+        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += 0.125 * value[band];
@@ -317,7 +348,7 @@ Spectrum DirectLight::BoxFluence(
     }
     return sum;
   }
-  Spectrum value = this->Fluence(light, centre);
+  Spectrum value = this->Fluence(light, centre, clear);
   if (edge > BoxRatio * distance)
   {
     return value;

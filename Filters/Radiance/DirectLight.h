@@ -22,7 +22,10 @@ public:
   }
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
-  Spectrum Fluence(std::size_t light, const Vec3& point) const;
+  /// @param clear whether it is known that nothing hides the light from there
+  Spectrum Fluence(std::size_t light, const Vec3& point, bool clear = false) const;
+  /// Whether the corners and the centre of a smoke cell all see the whole of a light.
+  bool Clear(std::size_t light, std::int64_t cell) const;
   /// Illuminance at a point of a surface with a unit normal [lx].
   Spectrum Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const;
   /// Mean fluence over a smoke cell [lx].
@@ -37,6 +40,8 @@ private:
     Vec3 Point;
     /// Of a surface; for smoke there is none.
     std::optional<Vec3> Normal;
+    /// Nothing hides the light.
+    bool Clear = false;
   };
   /// What the way to a light does to its light.
   struct Path
@@ -47,7 +52,8 @@ private:
     double Visible;
   };
 
-  Path SamplePath(const LightGroup& group, const Vec3& point) const;
+  double VisibleShare(const LightGroup& group, const Vec3& point) const;
+  Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;
   void AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
@@ -55,7 +61,7 @@ private:
   void AddLeaf(const LightGroup& leaf, const Receiver& receiver, const Path& path,
     Spectrum& sum) const;
   Spectrum BoxFluence(
-    std::size_t light, const Vec3& centre, const Vec3& size, int splits) const;
+    std::size_t light, const Vec3& centre, const Vec3& size, int splits, bool clear) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 

@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr int MostProbes = 64;
+/// Farther than this optical depth from a sign, no one asks for it.
+constexpr double FarthestDepth = 12.0;
 
 Vec3 SphereDirection(double first, double second)
 {
@@ -48,7 +50,23 @@ VeilProbes::VeilProbes(
     away = glm::dot(away, sign.Normal) < 0.0 ? -away : away;
     const Vec3 start = sign.Centre + 10.0 * scene.Shapes().Tolerance() * sign.Normal;
     const Hit end = scene.Shapes().Intersect(start, away, 0.0, size);
-    const double reach = (0.1 + 0.9 * random[2]) * std::min(end.Distance, size);
+    double farthest = std::min(end.Distance, size);
+    std::vector<Segment> segments;
+    scene.Smoke().Walk(start, away, 0.0, farthest, segments);
+    double depth = 0.0;
+    for (const Segment& segment : segments)
+    {
+      const double extinction =
+        scene.Smoke().Extinction(segment.Cell) * scene.ExtinctionScale(band);
+      const double left = FarthestDepth - depth;
+      depth += extinction * (segment.End - segment.Begin);
+      if (depth > FarthestDepth)
+      {
+        farthest = segment.Begin + left / extinction;
+        break;
+      }
+    }
+    const double reach = (0.1 + 0.9 * random[2]) * farthest;
     this->Add(scene, field, band, start + reach * away, -away, reach);
   }
 }

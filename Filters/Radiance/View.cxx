@@ -71,6 +71,8 @@ struct View::Implementation
   struct NearCell
   {
     std::vector<std::uint32_t> Lights;
+    /// Which of them the whole cell sees unhidden.
+    std::vector<bool> Clear;
     /// Value at the centre [lx] and gradient [lx/m].
     Spectrum Far{};
     std::array<Spectrum, 3> FarGradient{};
@@ -197,7 +199,7 @@ void View::Implementation::FindNearCells()
     if (!nearLights[cell].empty())
     {
       this->NearIndex[cell] = static_cast<std::int32_t>(this->NearCells.size());
-      this->NearCells.push_back({ std::move(nearLights[cell]), {}, {} });
+      this->NearCells.push_back({ std::move(nearLights[cell]), {}, {}, {} });
     }
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
@@ -210,6 +212,10 @@ void View::Implementation::FindNearCells()
           continue;
         }
         NearCell& near = this->NearCells[this->NearIndex[cell]];
+        for (const std::uint32_t light : near.Lights)
+        {
+          near.Clear.push_back(this->Direct.Clear(light, static_cast<std::int64_t>(cell)));
+        }
         if (near.Lights.size() == lights.Lights().size())
         {
           continue;
@@ -365,8 +371,9 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
 {
   const EmitterSet& lights = this->TheScene.Lights();
   double sum = 0.0;
-  for (const std::uint32_t light : near.Lights)
+  for (std::size_t index = 0; index < near.Lights.size(); ++index)
   {
+    const std::uint32_t light = near.Lights[index];
     const LightGroup& root = lights.Groups()[lights.Lights()[light]];
     // Equiangular points about the light follow 1/d^2 (Kulla and Fajardo 2012); a light of some size
     // is no steeper than its radius.
@@ -387,7 +394,8 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
         const double tangent = std::tan(angle);
         const double distance = std::clamp(middle + width * tangent, from, to);
         const double step = GaussWeights[i] * (high - low) * width * (1.0 + tangent * tangent);
-        const Spectrum fluence = this->Direct.Fluence(light, origin + distance * direction);
+        const Spectrum fluence =
+          this->Direct.Fluence(light, origin + distance * direction, near.Clear[index]);
         sum += fluence[band] * step * extinction * std::exp(-extinction * (distance - begin));
       }
     }

@@ -42,9 +42,7 @@ double NearestOf(const std::vector<double>& times, double time)
 
 //------------------------------------------------------------------------------------------------
 ExtinctionSource::ExtinctionSource(const SmvFile& index, double visibilityFactor)
-  : index_(index)
-  , visibilityFactor_(visibilityFactor)
-  , terms_(index.Meshes.size())
+    : index_(index), visibilityFactor_(visibilityFactor), terms_(index.Meshes.size())
 {
   std::vector<Term> candidates = this->Candidates();
   if (candidates.empty())
@@ -60,10 +58,9 @@ ExtinctionSource::ExtinctionSource(const SmvFile& index, double visibilityFactor
 std::vector<ExtinctionSource::Term> ExtinctionSource::Candidates() const
 {
   static constexpr std::array<std::pair<std::string_view, Quantity>, 4> labels{
-    { { "EXTINCTION COEFFICIENT", Quantity::Extinction },
-      { "OPTICAL DENSITY", Quantity::OpticalDensity }, { "VISIBILITY", Quantity::Visibility },
-      { "DENSITY", Quantity::Density } }
-  };
+    {{"EXTINCTION COEFFICIENT", Quantity::Extinction},
+      {"OPTICAL DENSITY", Quantity::OpticalDensity}, {"VISIBILITY", Quantity::Visibility},
+      {"DENSITY", Quantity::Density}}};
   // What the run itself calls smoke, with its Km.
   std::map<std::string, double> massExtinction;
   for (const SmvSmoke3D& smoke : index_.Smoke3D)
@@ -87,8 +84,8 @@ std::vector<ExtinctionSource::Term> ExtinctionSource::Candidates() const
     Term term;
     term.Slice = &slice;
     term.Kind = found->second;
-    term.Species = std::string(
-      Trim(std::string_view(label).substr(0, label.size() - found->first.size())));
+    term.Species =
+      std::string(Trim(std::string_view(label).substr(0, label.size() - found->first.size())));
     if (term.Kind == Quantity::Density)
     {
       const auto known = massExtinction.find(label);
@@ -100,8 +97,8 @@ std::vector<ExtinctionSource::Term> ExtinctionSource::Candidates() const
       term.MassExtinction = known == massExtinction.end() ? SootMassExtinction : known->second;
     }
     const SmvMesh& mesh = index_.Meshes[slice.Mesh];
-    term.WholeMesh = slice.Range ==
-      IndexRange{ 0, mesh.Cells(0), 0, mesh.Cells(1), 0, mesh.Cells(2) };
+    term.WholeMesh =
+      slice.Range == IndexRange{0, mesh.Cells(0), 0, mesh.Cells(1), 0, mesh.Cells(2)};
     named = named || !term.Species.empty();
     candidates.push_back(std::move(term));
   }
@@ -123,8 +120,8 @@ void ExtinctionSource::Choose(std::vector<Term> candidates)
     [&rank](const Term& a, const Term& b)
     {
       return std::tie(a.Slice->Mesh, a.Species) < std::tie(b.Slice->Mesh, b.Species) ||
-        (std::tie(a.Slice->Mesh, a.Species) == std::tie(b.Slice->Mesh, b.Species) &&
-          rank(a) < rank(b));
+             (std::tie(a.Slice->Mesh, a.Species) == std::tie(b.Slice->Mesh, b.Species) &&
+               rank(a) < rank(b));
     });
   std::set<std::string> species;
   for (Term& term : candidates)
@@ -150,12 +147,13 @@ void ExtinctionSource::Choose(std::vector<Term> candidates)
       if (found == terms_[mesh].end())
       {
         warnings_.push_back("Mesh '" + name + "' has no 3-D slice of the smoke" +
-          (one.empty() ? "" : " " + one) + ": it is taken as clear air there.");
+                            (one.empty() ? "" : " " + one) + ": it is taken as clear air there.");
       }
       else if (!found->WholeMesh)
       {
         warnings_.push_back("The 3-D slices of " + found->Slice->Quantity.LongLabel +
-          " cover only a part of mesh '" + name + "': its other cells are taken as clear air.");
+                            " cover only a part of mesh '" + name +
+                            "': its other cells are taken as clear air.");
       }
     }
   }
@@ -168,13 +166,14 @@ void ExtinctionSource::Open(Term& term)
   term.File = std::make_unique<SliceFile>(index_.Resolve(slice.File), slice.CellCentred);
   if (term.File->Range() != slice.Range)
   {
-    throw Error(term.File->Path(), "its index range is not the one that the index " + index_.Path +
-        " gives", "The two are of different runs: copy both from the same one");
+    throw Error(term.File->Path(),
+      "its index range is not the one that the index " + index_.Path + " gives",
+      "The two are of different runs: copy both from the same one");
   }
   if (!term.File->Damage().empty())
   {
-    warnings_.push_back(term.File->Path() + ": " + term.File->Damage() +
-      "; the frames before it are used.");
+    warnings_.push_back(
+      term.File->Path() + ": " + term.File->Damage() + "; the frames before it are used.");
   }
 }
 
@@ -200,10 +199,10 @@ void ExtinctionSource::Describe()
   {
     for (const Term& term : terms_[mesh])
     {
-      static constexpr std::array<const char*, 4> formulas{ "K", "K = 2.3 OD", "K = Km rho",
-        "K = C/S" };
-      text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name << "': "
-           << term.Slice->Quantity.LongLabel << " [" << term.Slice->Quantity.Unit << "], "
+      static constexpr std::array<const char*, 4> formulas{
+        "K", "K = 2.3 OD", "K = Km rho", "K = C/S"};
+      text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name
+           << "': " << term.Slice->Quantity.LongLabel << " [" << term.Slice->Quantity.Unit << "], "
            << (term.Slice->CellCentred ? "cell-centred" : "node-centred") << " 3-D slice "
            << term.Slice->File << ", " << formulas[static_cast<std::size_t>(term.Kind)];
       if (term.Kind == Quantity::Density)
@@ -232,8 +231,8 @@ void ExtinctionSource::FailWithoutSmoke() const
   std::set<std::string> present;
   for (const SmvSlice& slice : index_.Slices)
   {
-    present.insert((slice.IsVolume() ? "3-D slice of " : "2-D slice of ") +
-      slice.Quantity.LongLabel);
+    present.insert(
+      (slice.IsVolume() ? "3-D slice of " : "2-D slice of ") + slice.Quantity.LongLabel);
   }
   for (const SmvSmoke3D& smoke : index_.Smoke3D)
   {
@@ -287,7 +286,7 @@ MeshExtinction ExtinctionSource::Read(
       result.Time = frameTime;
     }
     const bool sharesSpecies = (i > 0 && terms[i - 1].Species == terms[i].Species) ||
-      (i + 1 < terms.size() && terms[i + 1].Species == terms[i].Species);
+                               (i + 1 < terms.size() && terms[i + 1].Species == terms[i].Species);
     if (sharesSpecies && (i == 0 || terms[i - 1].Species != terms[i].Species))
     {
       covered.assign(cells, 0);
@@ -302,14 +301,14 @@ double ExtinctionSource::Convert(const Term& term, double value) const
 {
   switch (term.Kind)
   {
-    case Quantity::OpticalDensity:
-      return ExtinctionPerOpticalDensity * value;
-    case Quantity::Density:
-      return term.MassExtinction * value;
-    case Quantity::Visibility:
-      return visibilityFactor_ / value;
-    case Quantity::Extinction:
-      break;
+  case Quantity::OpticalDensity:
+    return ExtinctionPerOpticalDensity * value;
+  case Quantity::Density:
+    return term.MassExtinction * value;
+  case Quantity::Visibility:
+    return visibilityFactor_ / value;
+  case Quantity::Extinction:
+    break;
   }
   return value;
 }
@@ -350,9 +349,9 @@ void ExtinctionSource::Add(Term& term, std::size_t frame, const std::vector<unsi
         {
           // FDS gives a node the mean over its gas cells, and 0 without any. All eight nodes of a
           // gas cell have one: the cell itself.
-          for (const std::size_t corner : { std::size_t{ 0 }, std::size_t{ 1 }, rowLength,
-                 rowLength + 1, layerLength, layerLength + 1, layerLength + rowLength,
-                 layerLength + rowLength + 1 })
+          for (const std::size_t corner :
+            {std::size_t{0}, std::size_t{1}, rowLength, rowLength + 1, layerLength, layerLength + 1,
+              layerLength + rowLength, layerLength + rowLength + 1})
           {
             extinction += 0.125 * (plain ? value[corner] : this->Convert(term, value[corner]));
           }

@@ -20,16 +20,17 @@ struct MeshExtinction
   double Time = 0.0;
 };
 
-/// Chooses, for each mesh and smoke species, the 3-D slices that give its extinction best, and reads
-/// them. In this order, slices over the whole mesh before slices over parts of it, and cell-centred
-/// before node-centred: EXTINCTION COEFFICIENT, OPTICAL DENSITY (K = 2.3 OD, as FDS divides by 2.3),
-/// DENSITY of a smoke species (K = Km rho), VISIBILITY (K = C/S). Species add.
+/// Chooses, for each mesh and smoke species, the 3-D slices that give its extinction best, and
+/// reads them. In this order, slices over the whole mesh before slices over parts of it, and
+/// cell-centred before node-centred: EXTINCTION COEFFICIENT, OPTICAL DENSITY (K = 2.3 OD, as FDS
+/// divides by 2.3), DENSITY of a smoke species (K = Km rho), VISIBILITY (K = C/S). Species add.
 class ExtinctionSource
 {
 public:
   /// @param index            the run; must outlive this object
-  /// @param visibilityFactor C of K = C/S, 3 for light-reflecting signs unless the run said otherwise
-  /// Throws Error when the run wrote no 3-D smoke, or a file that is needed is missing or damaged.
+  /// @param visibilityFactor C of K = C/S, 3 for light-reflecting signs unless the run said
+  /// otherwise Throws Error when the run wrote no 3-D smoke, or a file that is needed is missing or
+  /// damaged.
   ExtinctionSource(const SmvFile& index, double visibilityFactor);
 
   /// Frame times over all meshes [s], increasing.

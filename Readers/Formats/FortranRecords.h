@@ -23,7 +23,7 @@ template <class T> T SwapBytes(T value)
   static_assert(sizeof(T) == 4 && std::is_trivially_copyable_v<T>);
   auto bits = std::bit_cast<std::uint32_t>(value);
   bits = ((bits & 0x000000ffU) << 24) | ((bits & 0x0000ff00U) << 8) | ((bits & 0x00ff0000U) >> 8) |
-    ((bits & 0xff000000U) >> 24);
+         ((bits & 0xff000000U) >> 24);
   return std::bit_cast<T>(bits);
 }
 
@@ -36,8 +36,7 @@ public:
   static constexpr std::uint64_t MarkerBytes = 8;
 
   /// Opens @p path, whose first record must be @p firstRecordBytes long in either byte order.
-  FortranRecords(std::string path, std::uint32_t firstRecordBytes)
-    : path_(std::move(path))
+  FortranRecords(std::string path, std::uint32_t firstRecordBytes) : path_(std::move(path))
   {
     std::error_code problem;
     size_ = std::filesystem::file_size(path_, problem);
@@ -79,7 +78,7 @@ public:
   bool HasRecord(std::uint64_t offset, std::uint32_t bytes)
   {
     return this->Holds(offset, bytes) && this->Word(offset) == bytes &&
-      this->Word(offset + 4 + bytes) == bytes;
+           this->Word(offset + 4 + bytes) == bytes;
   }
 
   /// Reads the record at @p offset, which must be as long as @p values, and returns the offset
@@ -89,8 +88,9 @@ public:
     const std::uint64_t bytes = values.size_bytes();
     if (!this->Holds(offset, bytes))
     {
-      throw Error(this->At(offset), "the file ends inside a record of " + std::to_string(bytes) +
-          " bytes", "The run may have been stopped while it wrote: read an earlier time");
+      throw Error(this->At(offset),
+        "the file ends inside a record of " + std::to_string(bytes) + " bytes",
+        "The run may have been stopped while it wrote: read an earlier time");
     }
     if (this->Word(offset) != bytes || this->Word(offset + 4 + bytes) != bytes)
     {

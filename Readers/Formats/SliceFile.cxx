@@ -19,11 +19,10 @@ constexpr std::uint64_t LongestRecord = 2147483639;
 
 //------------------------------------------------------------------------------------------------
 SliceFile::SliceFile(const std::string& path, bool cellCentred)
-  : records_(path, LabelBytes)
-  , cellCentred_(cellCentred)
+    : records_(path, LabelBytes), cellCentred_(cellCentred)
 {
   std::uint64_t offset = 0;
-  for (std::string* label : { &quantity_.LongLabel, &quantity_.ShortLabel, &quantity_.Unit })
+  for (std::string* label : {&quantity_.LongLabel, &quantity_.ShortLabel, &quantity_.Unit})
   {
     std::array<char, LabelBytes> text{};
     offset = records_.Read(offset, std::span<char>(text));
@@ -73,17 +72,17 @@ void SliceFile::IndexFrames()
     const std::uint64_t offset = firstFrame_ + frame * frameBytes;
     std::array<float, 1> time{};
     if (!records_.HasRecord(offset, sizeof(float)) ||
-      !records_.HasRecord(offset + TimeRecordBytes, valueBytes_))
+        !records_.HasRecord(offset + TimeRecordBytes, valueBytes_))
     {
-      damage_ = "frame " + std::to_string(frame + 1) + " at byte " + std::to_string(offset) +
-        " is damaged";
+      damage_ =
+        "frame " + std::to_string(frame + 1) + " at byte " + std::to_string(offset) + " is damaged";
       return;
     }
     records_.Read(offset, std::span<float>(time));
     if (!std::isfinite(time[0]))
     {
       damage_ = "the time of frame " + std::to_string(frame + 1) + " at byte " +
-        std::to_string(offset) + " is not a number";
+                std::to_string(offset) + " is not a number";
       return;
     }
     times_.push_back(time[0]);
@@ -91,7 +90,7 @@ void SliceFile::IndexFrames()
   if (firstFrame_ + frames * frameBytes != records_.Size())
   {
     damage_ = "frame " + std::to_string(frames + 1) + " at byte " +
-      std::to_string(firstFrame_ + frames * frameBytes) + " is cut short";
+              std::to_string(firstFrame_ + frames * frameBytes) + " is cut short";
   }
 }
 
@@ -108,8 +107,8 @@ void SliceFile::ReadFrame(std::size_t frame, std::vector<float>& values)
     return;
   }
   // Drop the ghost layers at the low ends in place: every row moves towards the front.
-  const std::array<int, 3> ghosts{ stored_[0] - dimensions_[0], stored_[1] - dimensions_[1],
-    stored_[2] - dimensions_[2] };
+  const std::array<int, 3> ghosts{
+    stored_[0] - dimensions_[0], stored_[1] - dimensions_[1], stored_[2] - dimensions_[2]};
   float* target = values.data();
   for (int k = ghosts[2]; k < stored_[2]; ++k)
   {

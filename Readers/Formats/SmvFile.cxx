@@ -28,8 +28,7 @@ bool IsOn(const std::vector<SmvEvent>& events, double time)
 }
 
 //------------------------------------------------------------------------------------------------
-SmvFile::SmvFile(const std::string& path)
-  : Path(path)
+SmvFile::SmvFile(const std::string& path) : Path(path)
 {
   SmvParser(*this).Run();
 }

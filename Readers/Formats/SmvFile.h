@@ -1,4 +1,5 @@
-// What the FDS index (CHID.smv) says: meshes, obstructions, vents, surfaces, and the files there are.
+// What the FDS index (CHID.smv) says: meshes, obstructions, vents, surfaces, and the files there
+// are.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ struct SmvSurface
   std::string Name;
   int Type = 0;
   /// Red, green, blue (sRGB) and alpha (1: opaque), each 0 to 1.
-  std::array<double, 4> Color{ 1.0, 0.8, 0.4, 1.0 };
+  std::array<double, 4> Color{1.0, 0.8, 0.4, 1.0};
 };
 
 /// A change of an obstruction or vent while the run goes.
@@ -143,12 +144,12 @@ public:
   std::string Title;
   std::string Version;
   /// Begin and end of the run [s].
-  std::array<double, 2> Times{ 0.0, 0.0 };
+  std::array<double, 2> Times{0.0, 0.0};
   /// Single-scattering albedo of the smoke; FDS writes its default, 0.3, unless told otherwise.
   std::optional<double> Albedo;
   /// Scales of the 8-bit flame files: heat release rate [kW/m3] and temperature [C].
-  std::array<double, 2> HeatReleaseRange{ 0.0, 1200.0 };
-  std::array<double, 2> TemperatureRange{ 20.0, 2000.0 };
+  std::array<double, 2> HeatReleaseRange{0.0, 1200.0};
+  std::array<double, 2> TemperatureRange{20.0, 2000.0};
   std::string DefaultSurfaceName;
   std::vector<SmvSurface> Surfaces;
   std::vector<SmvMesh> Meshes;
@@ -158,7 +159,8 @@ public:
   std::vector<SmvDevice> Devices;
   /// Text tables (type such as `devc` or `hrr`, and file name).
   std::vector<std::pair<std::string, std::string>> Tables;
-  /// What a reader should know but can live with, e.g. an index that ends in the middle of an entry.
+  /// What a reader should know but can live with, e.g. an index that ends in the middle of an
+  /// entry.
   std::vector<std::string> Warnings;
 };
 

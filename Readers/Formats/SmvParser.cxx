@@ -25,8 +25,7 @@ int ToInteger(double number)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-SmvParser::SmvParser(SmvFile& index)
-  : index_(index)
+SmvParser::SmvParser(SmvFile& index) : index_(index)
 {
 }
 
@@ -46,12 +45,15 @@ void SmvParser::Run()
   catch (const EndOfIndex&)
   {
     const std::string place = "the index ends inside the entry " +
-      std::string(Trim(lines_[entry])) + " of line " + std::to_string(entry + 1);
-    const bool meshesWhole = !index_.Meshes.empty() && index_.Slices.size() +
-        index_.Smoke3D.size() + index_.Plot3D.size() > 0;
+                              std::string(Trim(lines_[entry])) + " of line " +
+                              std::to_string(entry + 1);
+    const bool meshesWhole =
+      !index_.Meshes.empty() &&
+      index_.Slices.size() + index_.Smoke3D.size() + index_.Plot3D.size() > 0;
     if (!meshesWhole)
     {
-      throw Error(index_.Path, place, "Wait until the run has written its meshes, or run FDS again");
+      throw Error(
+        index_.Path, place, "Wait until the run has written its meshes, or run FDS again");
     }
     index_.Warnings.push_back(index_.Path + ": " + place + ", which is left out.");
   }
@@ -76,8 +78,8 @@ void SmvParser::ReadLines()
   }
   if (Trim(text_).empty())
   {
-    throw Error(index_.Path, "the FDS index is empty",
-      "Wait until the run has written it, or run FDS again");
+    throw Error(
+      index_.Path, "the FDS index is empty", "Wait until the run has written it, or run FDS again");
   }
   std::string_view rest = text_;
   while (!rest.empty())
@@ -98,7 +100,7 @@ void SmvParser::Parse(std::string_view line)
 {
   const std::string_view word = Before(line, ' ');
   const std::string_view rest = Trim(line.substr(word.size()));
-  static constexpr std::array<std::string_view, 3> nodes{ "TRNX", "TRNY", "TRNZ" };
+  static constexpr std::array<std::string_view, 3> nodes{"TRNX", "TRNY", "TRNZ"};
   if (word.empty())
   {
     return;
@@ -122,7 +124,7 @@ void SmvParser::Parse(std::string_view line)
   else if (word == "TIMES")
   {
     const auto times = this->NextNumbers(2, "times");
-    index_.Times = { times[0], times[1] };
+    index_.Times = {times[0], times[1]};
   }
   else if (word == "ALBEDO")
   {
@@ -131,8 +133,8 @@ void SmvParser::Parse(std::string_view line)
   else if (word == "HRRPUV_MINMAX" || word == "TEMP_MINMAX")
   {
     const auto range = this->NextNumbers(2, "scale");
-    (word == "TEMP_MINMAX" ? index_.TemperatureRange
-                           : index_.HeatReleaseRange) = { range[0], range[1] };
+    (word == "TEMP_MINMAX" ? index_.TemperatureRange : index_.HeatReleaseRange) = {
+      range[0], range[1]};
   }
   else if (word == "CSVF")
   {
@@ -208,8 +210,9 @@ void SmvParser::Check()
     {
       if (surface < 0 || surface >= surfaces)
       {
-        throw Error(index_.Path, "an obstruction or vent of mesh '" + mesh.Name +
-            "' has surface number " + std::to_string(surface) + " of " + std::to_string(surfaces),
+        throw Error(index_.Path,
+          "an obstruction or vent of mesh '" + mesh.Name + "' has surface number " +
+            std::to_string(surface) + " of " + std::to_string(surfaces),
           "The index is damaged: run FDS again");
       }
     };
@@ -224,7 +227,7 @@ void SmvParser::Check()
   }
   if (index_.Surfaces.empty())
   {
-    index_.Surfaces.push_back({ "INERT" });
+    index_.Surfaces.push_back({"INERT"});
   }
 }
 
@@ -288,7 +291,7 @@ int SmvParser::MeshNumber(int oneBased, const char* what) const
   if (oneBased < 1 || oneBased > static_cast<int>(index_.Meshes.size()))
   {
     this->Fail(std::string(what) + " names mesh " + std::to_string(oneBased) + " of " +
-      std::to_string(index_.Meshes.size()));
+               std::to_string(index_.Meshes.size()));
   }
   return oneBased - 1;
 }
@@ -334,8 +337,8 @@ void SmvParser::ParseGrid(std::string_view line)
   }
   std::copy(counts.begin(), counts.end(), cells_.begin());
   index_.Meshes.emplace_back();
-  index_.Meshes.back().Name = line.empty() ? "mesh " + std::to_string(index_.Meshes.size())
-                                           : std::string(line);
+  index_.Meshes.back().Name =
+    line.empty() ? "mesh " + std::to_string(index_.Meshes.size()) : std::string(line);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -360,8 +363,8 @@ void SmvParser::ParseNodes(int axis)
     const auto numbers = this->NextNumbers(2, "node number and coordinate");
     if (!nodes.empty() && !(numbers[1] > nodes.back()))
     {
-      this->Fail("the node coordinates of mesh '" + index_.Meshes.back().Name +
-        "' do not increase");
+      this->Fail(
+        "the node coordinates of mesh '" + index_.Meshes.back().Name + "' do not increase");
     }
     nodes.push_back(numbers[1]);
   }
@@ -378,7 +381,7 @@ std::array<int, 6> SmvParser::CheckedRange(
     if (numbers[i] < 0 || numbers[i] > most || (i % 2 == 1 && numbers[i] < numbers[i - 1]))
     {
       this->Fail(std::string(what) + " has an index range outside of mesh '" +
-        index_.Meshes[mesh].Name + "'");
+                 index_.Meshes[mesh].Name + "'");
     }
     range[i] = static_cast<int>(numbers[i]);
   }
@@ -419,7 +422,7 @@ void SmvParser::ParseObstructions()
       this->Fail("an obstruction needs six indices, colour and type");
     }
     obstruction.Range =
-      this->CheckedRange({ indices.begin(), indices.end() }, meshNumber, "an obstruction");
+      this->CheckedRange({indices.begin(), indices.end()}, meshNumber, "an obstruction");
     const int colour = indices[6];
     obstruction.Invisible = colour == -2;
     if (colour == -3)
@@ -462,7 +465,7 @@ void SmvParser::ParseVents(bool circular)
       {
         this->Fail("a circular vent needs its centre and radius");
       }
-      vent.Circle = { circle[0], circle[1], circle[2], circle[3] };
+      vent.Circle = {circle[0], circle[1], circle[2], circle[3]};
     }
   }
   for (SmvVent& vent : vents)
@@ -475,7 +478,7 @@ void SmvParser::ParseVents(bool circular)
     {
       this->Fail("a vent needs six indices, colour and type");
     }
-    vent.Range = this->CheckedRange({ indices.begin(), indices.end() }, meshNumber, "a vent");
+    vent.Range = this->CheckedRange({indices.begin(), indices.end()}, meshNumber, "a vent");
     if (numbers.size() >= 12)
     {
       vent.Color.emplace();
@@ -505,7 +508,7 @@ void SmvParser::ParseSlice(std::string_view line, bool cellCentred)
   SmvSlice slice;
   slice.Mesh = this->MeshNumber(mesh[0], "a slice");
   slice.CellCentred = cellCentred;
-  slice.Range = this->CheckedRange({ range.begin(), range.end() }, slice.Mesh, "a slice");
+  slice.Range = this->CheckedRange({range.begin(), range.end()}, slice.Mesh, "a slice");
   slice.File = this->NextText();
   slice.Quantity = this->NextQuantity();
   index_.Slices.push_back(std::move(slice));
@@ -579,7 +582,7 @@ void SmvParser::ParseEvent(std::string_view line, bool obstruction, bool on)
   std::vector<SmvEvent>& events =
     obstruction ? mesh.Obstructions[place].Events : mesh.Vents[place].Events;
   // A restarted run may write a change again, out of order.
-  const SmvEvent event{ numbers[1], on };
+  const SmvEvent event{numbers[1], on};
   events.insert(std::upper_bound(events.begin(), events.end(), event,
                   [](const SmvEvent& a, const SmvEvent& b) { return a.Time < b.Time; }),
     event);

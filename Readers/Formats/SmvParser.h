@@ -14,8 +14,9 @@ struct SmvQuantity;
 struct SmvEvent;
 
 /// The parser behind SmvFile. Keyword lines start in the first column; what follows one is read by
-/// its handler; keywords without a handler are skipped. A run that still goes, or that crashed, ends
-/// its index in the middle of an entry: after the meshes that entry is left out with a warning.
+/// its handler; keywords without a handler are skipped. A run that still goes, or that crashed,
+/// ends its index in the middle of an entry: after the meshes that entry is left out with a
+/// warning.
 class SmvParser
 {
 public:

@@ -68,7 +68,8 @@ std::size_t NumberLength(std::string_view token, std::size_t decimals)
 std::optional<double> ToNumber(std::string_view text)
 {
   std::string plain(text.starts_with('+') ? text.substr(1) : text);
-  std::replace_if(plain.begin(), plain.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
+  std::replace_if(
+    plain.begin(), plain.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
   double value = 0.0;
   const auto [rest, problem] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
   if (problem == std::errc::result_out_of_range && rest == plain.data() + plain.size())
@@ -112,7 +113,7 @@ std::vector<double> SplitNumbers(std::string_view text)
     {
       decimals = 0;
       while (token.rfind('.') + 1 + decimals < token.size() &&
-        IsDigit(token[token.rfind('.') + 1 + decimals]))
+             IsDigit(token[token.rfind('.') + 1 + decimals]))
       {
         ++decimals;
       }
@@ -142,7 +143,7 @@ std::vector<int> SplitIntegers(std::string_view text, std::size_t count, std::si
     for (const double number : numbers)
     {
       if (integers.size() == count || std::abs(number) > std::numeric_limits<int>::max() ||
-        number != std::floor(number))
+          number != std::floor(number))
       {
         break;
       }

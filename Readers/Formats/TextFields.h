@@ -12,8 +12,8 @@ namespace smokevis
 /// The text without blanks, tabs and carriage returns at its two ends.
 std::string_view Trim(std::string_view text);
 
-/// The numbers at the start of @p text, up to the first thing that is not a number. Fields without a
-/// blank between them are taken apart at signs and, as all fields of one format have the same
+/// The numbers at the start of @p text, up to the first thing that is not a number. Fields without
+/// a blank between them are taken apart at signs and, as all fields of one format have the same
 /// number of decimals, behind the decimals: "-10.500-2.25012345.000" is three numbers.
 std::vector<double> SplitNumbers(std::string_view text);
 

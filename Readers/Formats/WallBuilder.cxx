@@ -81,7 +81,7 @@ std::array<std::array<double, 3>, 4> WallQuad::Corners() const
 {
   const int b = (Axis + 1) % 3;
   const int d = (Axis + 2) % 3;
-  std::array<std::array<double, 3>, 4> corners{ Low, Low, High, Low };
+  std::array<std::array<double, 3>, 4> corners{Low, Low, High, Low};
   corners[1][b] = High[b];
   corners[3][d] = High[d];
   if (!Positive)
@@ -93,8 +93,7 @@ std::array<std::array<double, 3>, 4> WallQuad::Corners() const
 
 //------------------------------------------------------------------------------------------------
 WallBuilder::WallBuilder(const SmvFile& index, double time, double leastOpacity)
-  : index_(index)
-  , time_(time)
+    : index_(index), time_(time)
 {
   for (std::size_t i = 0; i < index.Meshes.size(); ++i)
   {
@@ -155,7 +154,7 @@ void WallBuilder::AddPlane(int block, int axis, int k, std::vector<WallQuad>& qu
   this->PaintObstructions(plane);
   this->PaintVents(plane);
   const std::size_t faces = (plane.Lines[0].size() - 1) * (plane.Lines[1].size() - 1);
-  plane.Material = { std::vector<int>(faces, None), std::vector<int>(faces, None) };
+  plane.Material = {std::vector<int>(faces, None), std::vector<int>(faces, None)};
   for (int d = 0; d + 1 < static_cast<int>(plane.Lines[1].size()); ++d)
   {
     for (int b = 0; b + 1 < static_cast<int>(plane.Lines[0].size()); ++b)
@@ -178,13 +177,13 @@ std::vector<int> WallBuilder::Neighbours(int block, int axis, int k) const
     const SmvMesh& candidate = *blocks_[other].Mesh;
     const double tolerance = std::max(blocks_[block].Tolerance, blocks_[other].Tolerance);
     bool touches = other != block && coordinate > candidate.Nodes[axis].front() - tolerance &&
-      coordinate < candidate.Nodes[axis].back() + tolerance;
+                   coordinate < candidate.Nodes[axis].back() + tolerance;
     for (int tangent = 0; tangent < 3 && touches; ++tangent)
     {
       touches = tangent == axis ||
-        std::min(mesh.Nodes[tangent].back(), candidate.Nodes[tangent].back()) -
-            std::max(mesh.Nodes[tangent].front(), candidate.Nodes[tangent].front()) >
-          tolerance;
+                std::min(mesh.Nodes[tangent].back(), candidate.Nodes[tangent].back()) -
+                    std::max(mesh.Nodes[tangent].front(), candidate.Nodes[tangent].front()) >
+                  tolerance;
     }
     if (touches)
     {
@@ -195,8 +194,7 @@ std::vector<int> WallBuilder::Neighbours(int block, int axis, int k) const
 }
 
 //------------------------------------------------------------------------------------------------
-bool WallBuilder::NeedsPlane(
-  int block, int axis, int k, const std::vector<int>& neighbours) const
+bool WallBuilder::NeedsPlane(int block, int axis, int k, const std::vector<int>& neighbours) const
 {
   const Block& own = blocks_[block];
   if (k == 0 || k == own.Mesh->Cells(axis))
@@ -214,17 +212,17 @@ bool WallBuilder::NeedsPlane(
     const std::vector<double>& nodes = blocks_[other].Mesh->Nodes[axis];
     const double coordinate = own.Mesh->Nodes[axis][k];
     return std::abs(nodes.front() - coordinate) <= own.Tolerance ||
-      std::abs(nodes.back() - coordinate) <= own.Tolerance;
+           std::abs(nodes.back() - coordinate) <= own.Tolerance;
   };
   return std::any_of(own.Obstructions.begin(), own.Obstructions.end(), touches) ||
-    std::any_of(neighbours.begin(), neighbours.end(), begins);
+         std::any_of(neighbours.begin(), neighbours.end(), begins);
 }
 
 //------------------------------------------------------------------------------------------------
 void WallBuilder::Refine(Plane& plane, const std::vector<int>& neighbours) const
 {
   const Block& own = blocks_[plane.Block];
-  for (const int side : { 0, 1 })
+  for (const int side : {0, 1})
   {
     const int axis = side == 0 ? plane.B : plane.D;
     const std::vector<double>& nodes = own.Mesh->Nodes[axis];
@@ -266,7 +264,7 @@ void WallBuilder::PaintObstructions(Plane& plane) const
   const Block& own = blocks_[plane.Block];
   const auto nb = static_cast<std::size_t>(own.Mesh->Cells(plane.B));
   const auto nd = static_cast<std::size_t>(own.Mesh->Cells(plane.D));
-  plane.Obstruction = { std::vector<int>(nb * nd, None), std::vector<int>(nb * nd, None) };
+  plane.Obstruction = {std::vector<int>(nb * nd, None), std::vector<int>(nb * nd, None)};
   plane.Plate.assign(nb * nd, 0);
   // Where obstructions share a face FDS lets the one listed last have it.
   for (const int i : own.Obstructions)
@@ -306,7 +304,7 @@ void WallBuilder::PaintVents(Plane& plane)
   const SmvMesh& mesh = *blocks_[plane.Block].Mesh;
   const auto nb = static_cast<std::size_t>(mesh.Cells(plane.B));
   const auto nd = static_cast<std::size_t>(mesh.Cells(plane.D));
-  plane.Vent = { std::vector<int>(nb * nd, None), std::vector<int>(nb * nd, None) };
+  plane.Vent = {std::vector<int>(nb * nd, None), std::vector<int>(nb * nd, None)};
   for (std::size_t i = 0; i < mesh.Vents.size(); ++i)
   {
     const SmvVent& vent = mesh.Vents[i];
@@ -324,7 +322,7 @@ void WallBuilder::PaintVents(Plane& plane)
         if (vent.Circle)
         {
           const auto& [x, y, z, radius] = *vent.Circle;
-          const std::array<double, 3> centre{ x, y, z };
+          const std::array<double, 3> centre{x, y, z};
           const std::vector<double>& bNodes = mesh.Nodes[plane.B];
           const std::vector<double>& dNodes = mesh.Nodes[plane.D];
           if (std::hypot(0.5 * (bNodes[b] + bNodes[b + 1]) - centre[plane.B],
@@ -334,7 +332,7 @@ void WallBuilder::PaintVents(Plane& plane)
           }
         }
         const std::size_t face = static_cast<std::size_t>(d) * nb + b;
-        for (const int side : { 0, 1 })
+        for (const int side : {0, 1})
         {
           const bool otherWay = vent.Orientation != 0 && (vent.Orientation > 0) != (side == 1);
           // Of vents on one face FDS takes the first.
@@ -380,8 +378,8 @@ WallBuilder::Side WallBuilder::Look(
       {
         inside = point[axis] > mesh.Nodes[axis].front() && point[axis] < mesh.Nodes[axis].back();
       }
-      const bool finer = side.Block == None ||
-        blocks_[other].CellVolume < 0.999 * blocks_[side.Block].CellVolume ||
+      const bool finer =
+        side.Block == None || blocks_[other].CellVolume < 0.999 * blocks_[side.Block].CellVolume ||
         (blocks_[other].CellVolume < 1.001 * blocks_[side.Block].CellVolume && other < side.Block);
       if (inside && finer)
       {
@@ -415,9 +413,9 @@ void WallBuilder::AddFace(Plane& plane, int b, int d, const std::vector<int>& ne
   {
     // A plate of zero thickness. Where two meshes meet both have it: the finer one gives the face.
     const bool lowOwns = low.Block == high.Block ||
-      blocks_[low.Block].CellVolume < 0.999 * blocks_[high.Block].CellVolume ||
-      (blocks_[low.Block].CellVolume < 1.001 * blocks_[high.Block].CellVolume &&
-        low.Block < high.Block);
+                         blocks_[low.Block].CellVolume < 0.999 * blocks_[high.Block].CellVolume ||
+                         (blocks_[low.Block].CellVolume < 1.001 * blocks_[high.Block].CellVolume &&
+                           low.Block < high.Block);
     const int owner = lowOwns ? low.Block : high.Block;
     if (plane.Plate[ownFace] != 0 && owner == plane.Block)
     {
@@ -457,13 +455,9 @@ int WallBuilder::FaceMaterial(
       return None;
     }
   }
-  if (obstruction != None)
+  if (behind.Solid && behind.Block != plane.Block)
   {
-    return this->MaterialOf(own.Mesh->Obstructions[obstruction], plane.Axis, positive);
-  }
-  if (behind.Block != None)
-  {
-    // The solid is another mesh's, and this mesh does not list it as touching.
+    // The mesh that the solid belongs to knows best what it is.
     const Block& other = blocks_[behind.Block];
     for (auto i = other.Obstructions.rbegin(); i != other.Obstructions.rend(); ++i)
     {
@@ -472,13 +466,17 @@ int WallBuilder::FaceMaterial(
       for (int axis = 0; axis < 3; ++axis)
       {
         inside = inside && behind.Cell[axis] >= solid.Range[2 * axis] &&
-          behind.Cell[axis] < solid.Range[2 * axis + 1];
+                 behind.Cell[axis] < solid.Range[2 * axis + 1];
       }
       if (inside)
       {
         return this->MaterialOf(solid, plane.Axis, positive);
       }
     }
+  }
+  if (obstruction != None)
+  {
+    return this->MaterialOf(own.Mesh->Obstructions[obstruction], plane.Axis, positive);
   }
   return this->MaterialOf(index_.DefaultSurface(), nullptr);
 }
@@ -494,7 +492,7 @@ int WallBuilder::MaterialOf(const SmvObstruction& obstruction, int axis, bool po
 int WallBuilder::MaterialOf(int surface, const std::array<double, 4>* own)
 {
   const std::array<double, 4>& color = own ? *own : index_.Surfaces[surface].Color;
-  const WallMaterial material{ surface, { color[0], color[1], color[2] } };
+  const WallMaterial material{surface, {color[0], color[1], color[2]}};
   const auto found = std::find(materials_.begin(), materials_.end(), material);
   if (found != materials_.end())
   {

@@ -81,7 +81,8 @@ private:
   void Refine(Plane& plane, const std::vector<int>& neighbours) const;
   void PaintObstructions(Plane& plane) const;
   void PaintVents(Plane& plane);
-  Side Look(const Plane& plane, int b, int d, bool positive, const std::vector<int>& neighbours) const;
+  Side Look(
+    const Plane& plane, int b, int d, bool positive, const std::vector<int>& neighbours) const;
   void AddFace(Plane& plane, int b, int d, const std::vector<int>& neighbours);
   int FaceMaterial(const Plane& plane, std::size_t face, bool positive, const Side& behind);
   int MaterialOf(int surface, const std::array<double, 4>* own);

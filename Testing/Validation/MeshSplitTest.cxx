@@ -54,8 +54,8 @@ TEST(MeshSplit, SameNumbersAsOneMesh)
       const double a = one.Field->DirectFluence[static_cast<std::size_t>(same->second)];
       const double b = two.Field->DirectFluence[i];
       worstDirect = std::max(worstDirect, std::abs(a - b) / a);
-      const double c = one.Fluence({ same->second }).Mean;
-      const double d = two.Fluence({ cell }).Mean;
+      const double c = one.Fluence(std::vector{ same->second }).Mean;
+      const double d = two.Fluence(std::vector{ cell }).Mean;
       worstTotal = std::max(worstTotal, std::abs(c - d) / c);
     }
     report::Absolute("largest relative change, direct fluence", 0.0, worstDirect, 1e-6);

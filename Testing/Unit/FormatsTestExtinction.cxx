@@ -1,0 +1,250 @@
+// Extinction from whatever a run wrote: which slices are taken, and what they are turned into.
+#include "Errors.h"
+#include "ExtinctionSource.h"
+#include "FormatsTestRun.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr double C = 3.0;
+
+// A run of one mesh with 2 x 1 x 1 cells of 1 m.
+class OneMeshRun : public testing::Test
+{
+protected:
+  OneMeshRun() { index_.Mesh("m", {2, 1, 1}, {0, 0, 0}, {2, 1, 1}); }
+
+  // Adds a cell-centred 3-D slice with these two cells, constant in time.
+  void AddCells(const std::string& file, const std::string& label, float first, float second)
+  {
+    const float ghost = -7.0F; // must never show up
+    std::vector<float> stored(12, ghost);
+    stored[10] = first;
+    stored[11] = second;
+    folder_.Write(
+      file, test::SliceBytes(label, {0, 2, 0, 1, 0, 1}, {{0.0F, stored}, {1.0F, stored}}));
+    index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, file, label);
+  }
+
+  // Adds a node-centred 3-D slice whose nodes have the values of their x index.
+  void AddNodes(const std::string& file, const std::string& label, const std::array<float, 3>& x)
+  {
+    std::vector<float> stored;
+    for (int row = 0; row < 4; ++row)
+    {
+      stored.insert(stored.end(), x.begin(), x.end());
+    }
+    folder_.Write(
+      file, test::SliceBytes(label, {0, 2, 0, 1, 0, 1}, {{0.0F, stored}, {1.0F, stored}}));
+    index_.Slice(false, 1, {0, 2, 0, 1, 0, 1}, file, label);
+  }
+
+  const SmvFile& Run()
+  {
+    run_ = std::make_unique<SmvFile>(folder_.Write("test.smv", index_.Bytes()));
+    return *run_;
+  }
+
+  std::vector<float> Read()
+  {
+    ExtinctionSource source(this->Run(), C);
+    return source.Read(0, 0.0, {}).Values;
+  }
+
+  std::string Problem()
+  {
+    try
+    {
+      this->Read();
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "none";
+  }
+
+  test::Folder folder_{"extinction"};
+  test::Index index_;
+  std::unique_ptr<SmvFile> run_;
+};
+
+} // namespace
+
+TEST_F(OneMeshRun, PrefersCellsOfExtinction)
+{
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {4, 5, 6});
+  this->AddCells("d.sf", "SOOT DENSITY", 1, 1);
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 0.75);
+  ExtinctionSource source(this->Run(), C);
+  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(0.5, 0.75));
+  EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
+  EXPECT_THAT(source.Warnings(), IsEmpty());
+  EXPECT_THAT(source.Description(), HasSubstr("k.sf"));
+  EXPECT_THAT(source.Description(), testing::Not(HasSubstr("n.sf")));
+  EXPECT_EQ(source.NearestTime(-5.0), 0.0);
+  EXPECT_EQ(source.NearestTime(0.5), 0.0);
+  EXPECT_EQ(source.NearestTime(0.51), 1.0);
+}
+
+TEST_F(OneMeshRun, AveragesTheNodesOfACell)
+{
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 2, 4});
+  EXPECT_THAT(this->Read(), ElementsAre(1.5, 3.0));
+}
+
+TEST_F(OneMeshRun, TurnsOpticalDensityIntoExtinction)
+{
+  this->AddCells("o.sf", "MY SMOKE OPTICAL DENSITY", 1, 2);
+  EXPECT_THAT(this->Read(), ElementsAre(2.3F, 4.6F));
+}
+
+TEST_F(OneMeshRun, TurnsDensityIntoExtinctionWithTheRunsCoefficient)
+{
+  index_.Text("SMOKF3D     1   8000.0\n a.s3d\n BLACK STUFF DENSITY\n rho\n kg/m3\n");
+  this->AddCells("b.sf", "BLACK STUFF DENSITY", 1e-4F, 0);
+  this->AddCells("c.sf", "CARBON DIOXIDE DENSITY", 1, 1); // no smoke
+  this->AddCells("g.sf", "DENSITY", 1.2F, 1.2F);          // the gas
+  EXPECT_THAT(this->Read(), ElementsAre(testing::FloatEq(0.8F), 0.0F));
+}
+
+TEST_F(OneMeshRun, TakesFdsCoefficientForSootWithoutOne)
+{
+  this->AddCells("b.sf", "SOOT DENSITY", 1e-4F, 0);
+  EXPECT_THAT(this->Read(), ElementsAre(testing::FloatEq(0.87F), 0.0F));
+}
+
+TEST_F(OneMeshRun, TakesTheMostSmokeThatACappedVisibilityAllows)
+{
+  this->AddCells("v.sf", "SOOT VISIBILITY", 3, 30);
+  ExtinctionSource source(this->Run(), C);
+  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(1.0F, testing::FloatEq(0.1F)));
+  ASSERT_EQ(source.Warnings().size(), 1U);
+  EXPECT_THAT(source.Warnings()[0], HasSubstr("caps"));
+}
+
+TEST_F(OneMeshRun, AddsSpecies)
+{
+  this->AddCells("a.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 1);
+  this->AddNodes("b.sf", "MY SMOKE EXTINCTION COEFFICIENT", {1, 1, 1});
+  this->AddCells("c.sf", "EXTINCTION COEFFICIENT", 100, 100); // the sum of the two, not a third
+  EXPECT_THAT(this->Read(), ElementsAre(1.5, 2.0));
+}
+
+TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
+{
+  const auto part = [&](const std::string& file, int cell, float value)
+  {
+    std::vector<float> stored(8, -7.0F);
+    stored[7] = value;
+    const std::array<int, 6> range{cell, cell + 1, 0, 1, 0, 1};
+    folder_.Write(file, test::SliceBytes("SOOT EXTINCTION COEFFICIENT",
+                          {range.begin(), range.end()}, {{0.0F, stored}}));
+    index_.Slice(true, 1, range, file, "SOOT EXTINCTION COEFFICIENT");
+  };
+  part("a.sf", 1, 2.0F);
+  part("a again.sf", 1, 3.0F); // the same cell once more must not add
+  ExtinctionSource one(this->Run(), C);
+  EXPECT_THAT(one.Read(0, 0.0, {}).Values, ElementsAre(0.0F, 2.0F));
+  ASSERT_EQ(one.Warnings().size(), 1U);
+  EXPECT_THAT(one.Warnings()[0], HasSubstr("only a part of mesh 'm'"));
+  part("b.sf", 0, 1.0F);
+  EXPECT_THAT(this->Read(), ElementsAre(1.0F, 2.0F));
+}
+
+TEST_F(OneMeshRun, PrefersTheWholeMeshToABetterPart)
+{
+  std::vector<float> stored(8, 9.0F);
+  folder_.Write(
+    "p.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1}, {{0.0F, stored}}));
+  index_.Slice(true, 1, {0, 1, 0, 1, 0, 1}, "p.sf", "SOOT EXTINCTION COEFFICIENT");
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 1, 1});
+  EXPECT_THAT(this->Read(), ElementsAre(1.0, 1.0));
+}
+
+TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
+{
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", std::numeric_limits<float>::quiet_NaN(), 2);
+  ExtinctionSource source(this->Run(), C);
+  EXPECT_THAT(source.Read(0, 0.0, {1, 0}).Values, ElementsAre(0.0F, 2.0F));
+}
+
+TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
+{
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_THAT(this->Problem(), HasSubstr("k.sf"));
+  EXPECT_THAT(this->Problem(), HasSubstr("in cell (1, 0, 0) of mesh 'm' at 0 s"));
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, -0.5F);
+  EXPECT_THAT(this->Problem(), HasSubstr("-0.5 1/m"));
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, -1e-7F);
+  EXPECT_THAT(this->Read(), ElementsAre(1.0F, 0.0F));
+}
+
+TEST_F(OneMeshRun, TellsWhatToAskFdsFor)
+{
+  index_.Slice(false, 1, {0, 2, 0, 1, 0, 0}, "t.sf", "TEMPERATURE");
+  EXPECT_THAT(this->Problem(), HasSubstr("2-D slice of TEMPERATURE"));
+  EXPECT_THAT(this->Problem(), HasSubstr("&SLCF"));
+}
+
+TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
+{
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
+  EXPECT_THAT(this->Problem(), HasSubstr("gone.sf: the file cannot be opened"));
+  folder_.Write(
+    "gone.sf", test::SliceBytes("A", {0, 1, 0, 1, 0, 1}, {{0.0F, std::vector<float>(8)}}));
+  EXPECT_THAT(this->Problem(), HasSubstr("index range is not the one"));
+}
+
+TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
+{
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
+  std::filesystem::resize_file(
+    folder_.Path("k.sf"), std::filesystem::file_size(folder_.Path("k.sf")) - 3);
+  ExtinctionSource source(this->Run(), C);
+  EXPECT_THAT(source.Times(), ElementsAre(0.0));
+  ASSERT_EQ(source.Warnings().size(), 1U);
+  EXPECT_THAT(source.Warnings()[0], HasSubstr("frame 2"));
+  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(1.0F, 2.0F));
+}
+
+TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
+{
+  index_.Mesh("other", {1, 1, 1}, {2, 0, 0}, {3, 1, 1});
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
+  ExtinctionSource bare(this->Run(), C);
+  ASSERT_EQ(bare.Warnings().size(), 1U);
+  EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D slice"));
+  EXPECT_THAT(bare.Read(1, 0.0, {}).Values, ElementsAre(0.0F));
+  folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
+                          {{0.0F, std::vector<float>(8, 5.0F)}}));
+  index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "o.sf", "SOOT EXTINCTION COEFFICIENT");
+  ExtinctionSource both(this->Run(), C);
+  EXPECT_EQ(both.Read(0, 1.0, {}).Time, 1.0);
+  EXPECT_EQ(both.Read(1, 1.0, {}).Time, 0.0);
+}
+
+TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
+{
+  const std::vector<float> first(12, 1.0F);
+  const std::vector<float> second(12, 2.0F);
+  folder_.Write("r.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
+                          {{0.0F, first}, {1.0F, first}, {0.0F, second}}));
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "r.sf", "SOOT EXTINCTION COEFFICIENT");
+  ExtinctionSource source(this->Run(), C);
+  EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
+  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(2.0F, 2.0F));
+}
+
+} // namespace smokevis
