@@ -1,19 +1,18 @@
 """What the tests that run under pvpython share: the plugin, small scenes, and checks of messages."""
 import os
+import re
 import sys
 
 import numpy
-from paraview import servermanager, simple
-from vtkmodules.numpy_interface import dataset_adapter
+from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkPoints, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 
 
 def load_plugin():
-    """Loads the plugin that the first argument of the script names."""
+    """Loads the plugin that the first argument names; its proxies are then in paraview.simple."""
     simple.LoadPlugin(os.path.abspath(sys.argv[1]), remote=False)
-    # The proxies' constructors are attributes of paraview.simple from here on.
     return simple
 
 
@@ -100,25 +99,23 @@ def field(data, name):
 
 
 class Messages:
-    """Catches VTK's errors and warnings while it is in use."""
+    """Collects VTK's errors and warnings instead of printing them."""
 
     def __enter__(self):
-        self.previous = vtkOutputWindow.GetInstance()
+        self.before = vtkOutputWindow.GetInstance()
         self.window = vtkStringOutputWindow()
         vtkOutputWindow.SetInstance(self.window)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         return self
 
-    def __exit__(self, *ignored):
-        vtkOutputWindow.SetInstance(self.previous)
+    def __exit__(self, *_):
+        vtkOutputWindow.SetInstance(self.before)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+        self.text = self.window.GetOutput()
 
-    def text(self):
-        return self.window.GetOutput()
-
-    def count(self, class_name, kind="ERR"):
-        """Errors (or warnings) that an object of a class raised."""
-        blocks = self.text().split("\n\n")
-        mark = "ERROR:" if kind == "ERR" else "Warning:"
-        return sum(1 for b in blocks if mark in b and class_name + " (" in b)
+    def count(self, kind, class_name):
+        """Messages of a kind, "ERROR" or "Warning", that objects of a class gave."""
+        return len(re.findall(kind + r": In \S*" + class_name + r"\.cxx", self.text))
 
 
 def check_close(what, value, expected, relative=0.0, absolute=0.0):
