@@ -271,6 +271,45 @@ vtkDataArray* CellArray(
 }
 
 //------------------------------------------------------------------------------
+void MatchComponents(const std::vector<SurfaceBlock*>& blocks, const char* array)
+{
+  std::vector<SurfaceBlock*> narrow;
+  bool wide = false;
+  for (SurfaceBlock* const block : blocks)
+  {
+    if (vtkDataArray* const values = CellArray(*block->Mesh, block->Name, array, true))
+    {
+      if (values->GetNumberOfComponents() == 3)
+      {
+        wide = true;
+      }
+      else
+      {
+        narrow.push_back(block);
+      }
+    }
+  }
+  if (!wide)
+  {
+    return;
+  }
+  for (SurfaceBlock* const block : narrow)
+  {
+    vtkCellData* const cells = block->Mesh->GetCellData();
+    vtkDataArray* const values = cells->GetArray(array);
+    auto expanded = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+    expanded->SetName(array);
+    expanded->SetNumberOfComponents(3);
+    expanded->SetNumberOfTuples(values->GetNumberOfTuples());
+    for (int component = 0; component < 3; ++component)
+    {
+      expanded->CopyComponent(component, values, 0);
+    }
+    cells->AddArray(expanded);
+  }
+}
+
+//------------------------------------------------------------------------------
 bool HiddenCell(vtkDataSet& block, vtkIdType cell)
 {
   vtkUnsignedCharArray* const ghosts = block.GetCellGhostArray();

@@ -53,22 +53,19 @@ assert point_array(expected[1], "Visibility").max() > 0.05
 blocks = [data.GetPartition(0, i) for i in range(data.GetNumberOfPartitions(0))]
 assert len(blocks) == 2 and data.GetNumberOfPartitions(1) == 2 and data.GetNumberOfPartitions(2) == 2
 with tempfile.TemporaryDirectory() as folder:
-    for extension, reader in (("vtpc", simple.XMLPartitionedDatasetCollectionReader),
-                              ("vtm", simple.XMLMultiBlockDataReader)):
+    # Inline data: Debian 12's expat stumbles over raw appended data, ParaView's own default.
+    for saved, extension, reader in (
+            (source, "vtpc", simple.XMLPartitionedDatasetCollectionReader),
+            (simple.ConvertToMultiBlock(Input=source), "vtm", simple.XMLMultiBlockDataReader)):
         path = os.path.join(folder, "field." + extension)
-        if extension == "vtm":
-            # Through another filter and format: a light field is ordinary data.
-            converted = simple.ConvertToMultiBlock(Input=source) \
-                if hasattr(simple, "ConvertToMultiBlock") else None
-            if converted is None:
-                continue
-            simple.SaveData(path, proxy=converted)
-        else:
-            simple.SaveData(path, proxy=source)
+        simple.SaveData(path, proxy=saved, DataMode="Binary")
         copy = reader(FileName=[path])
         check_same(expected, views(copy))
-        read = fetch(copy)
-        first = read.GetPartition(0, 0) if extension == "vtpc" else read.GetBlock(0).GetPartition(0)
+        first = fetch(copy)
+        while first.IsA("vtkCompositeDataSet"):
+            first = (first.GetBlock(0) if first.IsA("vtkMultiBlockDataSet") else
+                     first.GetPartitionAsDataObject(0) if first.IsA("vtkPartitionedDataSet") else
+                     first.GetPartitionedDataSet(0))
         for name in ("Albedo", "AngstromExponent", "Bands", "ExtinctionScale", "Tolerance", "Seed"):
             assert field(first, name) == field(data, name), name
         report = first.GetFieldData().GetAbstractArray("WorkReportWhat")
