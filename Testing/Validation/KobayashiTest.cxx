@@ -56,7 +56,7 @@ Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
     const double z = 1.0 - (2.0 * i + 1.0) / directions;
     const double r = std::sqrt(1.0 - z * z);
     const Vec3 direction(r * std::cos(golden * i), r * std::sin(golden * i), z);
-    const Lanes light = solved.TheView->TraceVeil(point, direction, 400.0, 0).TotalLanes();
+    const Lanes light = solved.TheView->TraceVeil(point, direction, 0.0, 400.0, 0).TotalLanes();
     for (int batch = 0; batch < Batches; ++batch)
     {
       total[static_cast<std::size_t>(batch)] += 4.0 * Pi * light[batch] / directions;

@@ -61,7 +61,7 @@ TEST(PointSource, AirlightOfSingleScattering)
       // Beyond 15 mean free paths lies less than 1e-6 of the light.
       const double length = std::min(15.0, table.Number(row, "T_vp"));
       const Vec3 direction(std::cos(angle * Pi / 180.0), std::sin(angle * Pi / 180.0), 0.0);
-      const RayLight light = solved.TheView->TraceVeil(Vec3(0.0), direction, length, 0);
+      const RayLight light = solved.TheView->TraceVeil(Vec3(0.0), direction, 0.0, length, 0);
       report::Relative("distance " + table.Text(row, "T_sv") + " angle " +
           table.Text(row, "gamma_deg") + " depth " + table.Text(row, "T_vp"),
         table.Number(row, "Lhat_direct"), light.Veil() / Albedo, 0.01,
