@@ -15,7 +15,7 @@ namespace smokevis
 namespace
 {
 
-/// A light counts as near to a cell within its own radius plus so many cell edges of the cell: the
+/// A light counts as near to a cell within so many cell edges of the cell: the
 /// fluence of its light is then too steep to be interpolated between cells.
 constexpr double NearEdges = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
@@ -183,11 +183,9 @@ void View::Implementation::FindNearCells()
         for (std::size_t light = 0; light < lights.Lights().size(); ++light)
         {
           const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-          const Vec3 from = centre - root.Centre;
-          const double limit = reach + root.Radius;
           // Behind a plate there is none of its light.
-          if (glm::dot(from, from) < limit * limit &&
-            glm::dot(from, root.Normal) > -root.Radius - glm::length(size))
+          if (root.Distance(centre) < reach &&
+            glm::dot(centre - root.Centre, root.Normal) > -root.Radius - glm::length(size))
           {
             nearLights[cell].push_back(static_cast<std::uint32_t>(light));
           }
