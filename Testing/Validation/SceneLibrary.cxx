@@ -198,7 +198,7 @@ std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const V
 
 //--------------------------------------------------------------------------------------------------
 std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
-  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance)
+  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance, int signId)
 {
   std::vector<EmitterCell> cells;
   const auto at = [&](int i, int j)
@@ -211,6 +211,7 @@ std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU
       cell.Vertices = { at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) };
       cell.Luminance = { luminance, luminance, luminance };
       cell.Reflectance = { reflectance, reflectance, reflectance };
+      cell.SignId = signId;
       cells.push_back(cell);
     }
   }
@@ -222,10 +223,11 @@ std::vector<EmitterCell> EmittingRoom(
   const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance)
 {
   std::vector<EmitterCell> cells;
+  int sign = 0;
   for (const Face& face : InwardFaces(lower, upper))
   {
-    const auto wall =
-      EmittingRectangle(face.Corner, face.EdgeU, face.EdgeV, n, n, luminance, reflectance);
+    const auto wall = EmittingRectangle(
+      face.Corner, face.EdgeU, face.EdgeV, n, n, luminance, reflectance, sign++);
     cells.insert(cells.end(), wall.begin(), wall.end());
   }
   return cells;

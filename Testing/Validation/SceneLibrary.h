@@ -46,11 +46,12 @@ EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance = 0.0);
 
-/// A rectangle of nu x nv emitting cells; its front is the side of cross(edgeU, edgeV).
+/// A rectangle of nu x nv emitting cells that are one sign; its front is the side of
+/// cross(edgeU, edgeV).
 std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
-  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance);
+  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance, int signId = 0);
 
-/// The six walls of a box as emitters that face inwards, n x n cells each.
+/// The six walls of a box as emitters that face inwards, n x n cells each, a sign a wall.
 std::vector<EmitterCell> EmittingRoom(
   const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance);
 

@@ -59,6 +59,7 @@ void Head(const std::string& caption)
 {
   std::printf("%s\n| %-44s | %12s | %12s | %12s | %6s |\n", caption.c_str(), "quantity", "reference",
     "value", "deviation", "z");
+  std::fflush(stdout);
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -96,22 +96,31 @@ TEST(Tunnel, SolverAgrees)
   CheckSolver("lamp", WithLamp(0.5), UnderALamp);
 }
 
-// A lamp near the eye throws 4.9 times the veil of the same lamp near the sign.
+// A lamp near the eye throws about 4.9 times the veil over the sign that the same lamp near the sign
+// does, and lowers contrast more. That figure comes without the lamps' exact places, so 3 % is allowed.
 TEST(Tunnel, LampNearTheEyeHarmsMore)
 {
   report::Head("Tunnel, lamp near the eye (x = 0.5) and near the sign (x = 3.5)");
-  const SignMeasurement none = MeasureSign(
-    *Solved(scenes::Tunnel(1.0, 0.9)).TheView, 0, scenes::TunnelEye, PlainObserver);
-  const SignMeasurement nearEye =
-    MeasureSign(*Solved(WithLamp(0.5)).TheView, 0, scenes::TunnelEye, PlainObserver);
-  const SignMeasurement nearSign =
-    MeasureSign(*Solved(WithLamp(3.5)).TheView, 0, scenes::TunnelEye, PlainObserver);
-  EXPECT_LT(nearEye.Contrast, nearSign.Contrast);
-  EXPECT_LT(nearSign.Contrast, none.Contrast);
-  // The ratio is given to two digits and is the quotient of two numbers good to 1 %.
-  const double ratio = (nearEye.UnlitLuminance - none.UnlitLuminance) /
-    (nearSign.UnlitLuminance - none.UnlitLuminance);
-  report::Absolute("veil of the one over veil of the other", 4.9, ratio, 0.15);
+  const Vec3 eye = scenes::TunnelEye;
+  const Solved none(scenes::Tunnel(1.0, 0.9));
+  const Solved nearEye(WithLamp(0.5));
+  const Solved nearSign(WithLamp(3.5));
+  const double contrast = MeasureSign(*none.TheView, 0, eye, PlainObserver).Contrast;
+  const double byTheEye = MeasureSign(*nearEye.TheView, 0, eye, PlainObserver).Contrast;
+  const double byTheSign = MeasureSign(*nearSign.TheView, 0, eye, PlainObserver).Contrast;
+  EXPECT_LT(byTheEye, byTheSign);
+  EXPECT_LT(byTheSign, contrast);
+
+  // Veil before the middles of all bars.
+  double first = 0.0;
+  double second = 0.0;
+  for (std::size_t cell = 0; cell < 9; ++cell)
+  {
+    const Ray ray{ eye, glm::normalize(none.TheScene->Lights().CellCentre(cell) - eye) };
+    first += nearEye.Trace(ray).Veil();
+    second += nearSign.Trace(ray).Veil();
+  }
+  report::Relative("veil of the one over veil of the other", 4.9, first / second, 0.03);
 }
 
 } // namespace
