@@ -26,6 +26,10 @@ constexpr int MostParts = 16;
 constexpr int GradedParts = 2;
 constexpr double Grading = 0.25;
 
+/// A line meets a wall in the border of two cells to single precision only, so that cells inside solids
+/// see a trace of the light outside: less than this share of the mean fluence.
+constexpr double LeakShare = 1e-4;
+
 /// Gauss-Legendre nodes and weights on (0, 1).
 constexpr std::array<double, 4> GaussNodes = { 0.06943184420297371, 0.33000947820757187,
   0.66999052179242813, 0.93056815579702629 };
@@ -85,9 +89,11 @@ struct View::Implementation
   {
     this->FindOpenFaces();
     this->FindNearCells();
+    this->FindLeak();
   }
 
   void FindOpenFaces();
+  void FindLeak();
   void FindNearCells();
   Spectrum FarFluence(const NearCell& near, const Vec3& point) const;
   /// Direct fluence, of the lights that are not near, at a point of a cell [lx].
@@ -118,6 +124,8 @@ struct View::Implementation
   std::vector<unsigned char> OpenFaces;
   std::vector<std::int32_t> NearIndex;
   std::vector<NearCell> NearCells;
+  /// Fluence that rounding may let through the walls of a solid [lx].
+  Spectrum Leak{};
 };
 
 void View::Implementation::FindOpenFaces()
@@ -156,6 +164,20 @@ void View::Implementation::FindOpenFaces()
         }
       }
     });
+}
+
+void View::Implementation::FindLeak()
+{
+  for (int band = 0; band < this->Field.Bands; ++band)
+  {
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < this->Field.Cells; ++cell)
+    {
+      const std::size_t index = this->Field.CellIndex(band, cell);
+      sum += this->Field.DirectFluence[index] + Mean(this->Field.MultipleFluence[index]);
+    }
+    this->Leak[band] = LeakShare * sum / std::max<std::size_t>(1, this->Field.Cells);
+  }
 }
 
 void View::Implementation::FindNearCells()
@@ -540,7 +562,8 @@ bool View::InsideSolid(const Vec3& point) const
     for (int band = 0; band < this->Field_->Bands; ++band)
     {
       const std::size_t index = this->Field_->CellIndex(band, cell);
-      if (this->Field_->DirectFluence[index] + Mean(this->Field_->MultipleFluence[index]) > 0.0)
+      if (this->Field_->DirectFluence[index] + Mean(this->Field_->MultipleFluence[index]) >
+        this->Implementation_->Leak[band])
       {
         return false;
       }
