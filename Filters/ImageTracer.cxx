@@ -2,8 +2,8 @@
 #include "ImageTracer.h"
 
 #include "Errors.h"
+#include "VeilBlock.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -16,13 +16,26 @@ namespace smokevis
 namespace
 {
 
-/// Samples along each side of a pixel whose whole footprint lies on plates: only the pattern
-/// varies.
+/// Side of the squares of pixels that are traced together.
+constexpr int BlockSize = 32;
+/// Samples along each side of a pixel that shows plates only: their pattern may be fine.
 constexpr int PatternSamples = 8;
-/// Samples along each side of a pixel at the edge of a plate: rays of other lengths, in all smoke.
+/// Samples along each side of a pixel at the edge of a plate.
 constexpr int EdgeSamples = 4;
 /// Distances that differ by less than this share have the same smoke before them.
 constexpr double SameDistance = 0.01;
+
+bool SeemsAsFar(const Hit& first, const Hit& second)
+{
+  return first.Found() == second.Found() &&
+         (!first.Found() ||
+           std::abs(first.Distance - second.Distance) <= SameDistance * first.Distance);
+}
+
+bool ShowsPlate(const Hit& hit)
+{
+  return hit.Found() && hit.Emitter;
+}
 
 /// What one band of a pixel receives.
 struct PixelLight
@@ -32,12 +45,10 @@ struct PixelLight
   double OpticalDepth = 0.0;
   Lanes Multiple;
 
-  void Add(const RayLight& light, double weight)
+  void AddVeil(const RayLight& light, double weight)
   {
-    this->Surface += weight * std::max(0.0, light.Surface);
     this->Veil += weight * light.Veil();
     this->OpticalDepth += weight * light.OpticalDepth;
-    this->AddMultiple(light.SurfaceMultiple, weight);
     this->AddMultiple(light.VeilMultiple, weight);
   }
 
@@ -50,63 +61,56 @@ struct PixelLight
   }
 };
 
-class PixelTracer
+/// Traces squares of pixels.
+class BlockTracer
 {
 public:
-  PixelTracer(const View& view, const Camera& camera, double acuity, TracedImage& image)
+  BlockTracer(const View& view, const Camera& camera, double acuity, TracedImage& image)
       : View_(view), Camera_(camera), Image_(image), Acuity_(acuity),
         Bands_(view.TheScene().Bands())
   {
   }
 
-  void Trace(std::size_t pixel) const
+  /// Traces the pixels from (x, y) on.
+  void Trace(int x, int y) const
   {
-    const int width = this->Camera_.Width;
-    const double x = static_cast<double>(pixel % width) + 0.5;
-    const double y = static_cast<double>(pixel / width) + 0.5;
-    const Vec3 direction = this->Camera_.Direction(x, y);
-    const Hit hit = this->View_.FirstHit(this->Camera_.Position, direction);
-    PixelLight light[MaxBands];
-    switch (this->Look(x, y, hit))
+    const int columns = std::min(BlockSize, this->Camera_.Width - x);
+    const int rows = std::min(BlockSize, this->Camera_.Height - y);
+    // A row and a column of the next blocks support the interpolation at the border.
+    const int width = std::min(columns + 1, this->Camera_.Width - x);
+    const int height = std::min(rows + 1, this->Camera_.Height - y);
+    VeilBlock veil(this->View_, this->Camera_, x, y, width, height);
+    std::vector<Pixel> pixels(static_cast<std::size_t>(width) * height);
+    for (int row = 0; row < height; ++row)
     {
-    case Content::Even:
-      for (int band = 0; band < this->Bands_; ++band)
+      for (int column = 0; column < width; ++column)
       {
-        light[band].Add(this->View_.Trace(this->Camera_.Position, direction, hit, band), 1.0);
+        Pixel& pixel = pixels[row * width + column];
+        pixel = this->Look(x + column + 0.5, y + row + 0.5);
+        veil.SetDistance(column, row, pixel.Seen.Distance);
       }
-      break;
-    case Content::Pattern:
-      this->AveragePattern(x, y, direction, hit, light);
-      break;
-    case Content::Edge:
-      this->AverageRays(x, y, light);
-      break;
     }
-    this->Put(pixel, light);
-    this->Image_.SignIds[pixel] = -1;
-    if (hit.Found() && hit.Emitter && hit.Side == 0)
+    veil.Compute();
+    for (int row = 0; row < rows; ++row)
     {
-      this->Image_.SignIds[pixel] = this->Emitter(hit).SignId;
+      for (int column = 0; column < columns; ++column)
+      {
+        this->Shade(x + column, y + row, pixels[row * width + column], veil.Get(column, row));
+      }
     }
   }
 
 private:
-  enum class Content
+  struct Pixel
   {
-    /// No plate, or one cell of a plate.
-    Even,
-    /// Cells of plates at one distance.
-    Pattern,
-    /// Plates and what is beside them.
-    Edge
+    Hit Seen;
+    /// Samples along each side of its footprint.
+    int Samples = 1;
+    /// False where parts of the footprint have other smoke before them than the middle.
+    bool OneDistance = true;
   };
 
-  const EmitterCell& Emitter(const Hit& hit) const
-  {
-    return this->View_.TheScene().Lights().Cells()[this->Index(hit)];
-  }
-
-  std::size_t Index(const Hit& hit) const { return this->View_.TheScene().Shapes().Cell(hit); }
+  std::size_t Emitter(const Hit& hit) const { return this->View_.TheScene().Shapes().Cell(hit); }
 
   /// Half the side of a pixel's footprint, in pixels.
   double HalfFootprint(double x, double y) const
@@ -115,97 +119,131 @@ private:
     return 0.5 * std::max(1.0, this->Acuity_ / std::max(glm::length(step), 1e-12));
   }
 
-  Content Look(double x, double y, const Hit& centre) const
+  Pixel Look(double x, double y) const
   {
+    Pixel pixel;
+    pixel.Seen = this->View_.FirstHit(this->Camera_.Position, this->Camera_.Direction(x, y));
     const double half = this->HalfFootprint(x, y);
-    int plates = centre.Emitter && centre.Found() ? 1 : 0;
+    int plates = ShowsPlate(pixel.Seen) ? 1 : 0;
     bool oneCell = plates == 1;
-    bool oneDistance = true;
     for (int corner = 0; corner < 4; ++corner)
     {
       const Hit hit = this->View_.FirstHit(
         this->Camera_.Position, this->Camera_.Direction(x + (corner % 2 == 0 ? -half : half),
                                   y + (corner / 2 == 0 ? -half : half)));
-      const bool plate = hit.Found() && hit.Emitter;
-      plates += plate ? 1 : 0;
-      oneCell =
-        oneCell && plate && this->Index(hit) == this->Index(centre) && hit.Side == centre.Side;
-      oneDistance =
-        oneDistance && std::abs(hit.Distance - centre.Distance) <= SameDistance * centre.Distance;
+      plates += ShowsPlate(hit) ? 1 : 0;
+      oneCell = oneCell && ShowsPlate(hit) && hit.Side == pixel.Seen.Side &&
+                this->Emitter(hit) == this->Emitter(pixel.Seen);
+      pixel.OneDistance = pixel.OneDistance && SeemsAsFar(pixel.Seen, hit);
     }
     // A cell is convex: one that holds the corners of the footprint holds all of it.
-    return plates == 0 || oneCell       ? Content::Even
-           : plates == 5 && oneDistance ? Content::Pattern
-                                        : Content::Edge;
+    if (plates == 0 || oneCell)
+    {
+      pixel.OneDistance = true;
+    }
+    else
+    {
+      pixel.Samples = plates == 5 ? PatternSamples : EdgeSamples;
+    }
+    return pixel;
   }
 
-  template <class Visit> void ForEachSample(double x, double y, int samples, Visit&& visit) const
+  /// Luminance that leaves what a ray meets towards the eye, and its batches, before any smoke.
+  double SurfaceLuminance(const Vec3& ray, const Hit& hit, int band, Lanes& lanes) const
   {
-    const double side = 2.0 * this->HalfFootprint(x, y);
-    for (int j = 0; j < samples; ++j)
+    lanes = Lanes();
+    if (!hit.Found())
     {
-      for (int i = 0; i < samples; ++i)
+      return 0.0;
+    }
+    const Vec3 point = this->Camera_.Position + hit.Distance * ray;
+    if (hit.Emitter)
+    {
+      return this->View_.EmitterLuminance(this->Emitter(hit), hit.Side, point, -ray, band, lanes);
+    }
+    // A ray that starts right before the surface.
+    Hit near = hit;
+    near.Distance = 1e-9 * hit.Distance;
+    const RayLight light = this->View_.Trace(point - near.Distance * ray, ray, near, band);
+    lanes = light.SurfaceMultiple;
+    return std::max(0.0, light.Surface);
+  }
+
+  void AddSample(const Vec3& ray, const Hit& hit, const VeilBlock::Smoke& smoke, double weight,
+    std::array<PixelLight, MaxBands>& light) const
+  {
+    for (int band = 0; band < this->Bands_; ++band)
+    {
+      Lanes lanes;
+      const double transmitted = weight * std::exp(-smoke[band].OpticalDepth);
+      light[band].Surface += transmitted * this->SurfaceLuminance(ray, hit, band, lanes);
+      light[band].AddMultiple(lanes, transmitted);
+      light[band].AddVeil(smoke[band], weight);
+    }
+  }
+
+  void Shade(int column, int row, const Pixel& pixel, const VeilBlock::Smoke& smoke) const
+  {
+    const double x = column + 0.5;
+    const double y = row + 0.5;
+    std::array<PixelLight, MaxBands> light;
+    if (pixel.Samples == 1)
+    {
+      this->AddSample(this->Camera_.Direction(x, y), pixel.Seen, smoke, 1.0, light);
+    }
+    else
+    {
+      this->Average(x, y, pixel, smoke, light);
+    }
+    const std::size_t index = column + static_cast<std::size_t>(row) * this->Camera_.Width;
+    this->Put(index, light);
+    this->Image_.SignIds[index] =
+      ShowsPlate(pixel.Seen) && pixel.Seen.Side == 0
+        ? this->View_.TheScene().Lights().Cells()[this->Emitter(pixel.Seen)].SignId
+        : -1;
+  }
+
+  /// Mean over a regular grid of samples. Samples as far away as each other share their smoke.
+  void Average(double x, double y, const Pixel& pixel, const VeilBlock::Smoke& smoke,
+    std::array<PixelLight, MaxBands>& light) const
+  {
+    struct Sheet
+    {
+      Hit Seen;
+      VeilBlock::Smoke Smoke;
+    };
+    std::vector<Sheet> sheets;
+    if (pixel.OneDistance)
+    {
+      sheets.push_back({pixel.Seen, smoke});
+    }
+    const int count = pixel.Samples;
+    const double side = 2.0 * this->HalfFootprint(x, y);
+    for (int j = 0; j < count; ++j)
+    {
+      for (int i = 0; i < count; ++i)
       {
-        const Vec3 direction = this->Camera_.Direction(
-          x + side * ((i + 0.5) / samples - 0.5), y + side * ((j + 0.5) / samples - 0.5));
-        visit(direction, this->View_.FirstHit(this->Camera_.Position, direction));
+        const Vec3 ray = this->Camera_.Direction(
+          x + side * ((i + 0.5) / count - 0.5), y + side * ((j + 0.5) / count - 0.5));
+        const Hit hit = this->View_.FirstHit(this->Camera_.Position, ray);
+        auto sheet = std::find_if(sheets.begin(), sheets.end(),
+          [&](const Sheet& known) { return SeemsAsFar(known.Seen, hit); });
+        if (sheet == sheets.end())
+        {
+          sheets.push_back({hit, {}});
+          sheet = sheets.end() - 1;
+          for (int band = 0; band < this->Bands_; ++band)
+          {
+            sheet->Smoke[band] =
+              this->View_.TraceVeil(this->Camera_.Position, ray, 0.0, hit.Distance, band);
+          }
+        }
+        this->AddSample(ray, hit, sheet->Smoke, 1.0 / (count * count), light);
       }
     }
   }
 
-  /// The smoke is that of the middle of the pixel, the pattern the mean over the footprint.
-  void AveragePattern(
-    double x, double y, const Vec3& direction, const Hit& hit, PixelLight light[]) const
-  {
-    double transmittance[MaxBands];
-    for (int band = 0; band < this->Bands_; ++band)
-    {
-      const RayLight veil =
-        this->View_.TraceVeil(this->Camera_.Position, direction, 0.0, hit.Distance, band);
-      light[band].Add(veil, 1.0);
-      transmittance[band] = std::exp(-veil.OpticalDepth);
-    }
-    const double weight = 1.0 / (PatternSamples * PatternSamples);
-    this->ForEachSample(x, y, PatternSamples,
-      [&](const Vec3& ray, const Hit& end)
-      {
-        for (int band = 0; band < this->Bands_; ++band)
-        {
-          Lanes lanes;
-          double surface = 0.0;
-          if (end.Found() && end.Emitter)
-          {
-            surface = transmittance[band] * this->View_.EmitterLuminance(this->Index(end), end.Side,
-                                              this->Camera_.Position + end.Distance * ray, -ray,
-                                              band, lanes);
-            light[band].AddMultiple(lanes, weight * transmittance[band]);
-          }
-          else
-          {
-            // Something thin before the plate, or a slit in it.
-            const RayLight other = this->View_.Trace(this->Camera_.Position, ray, end, band);
-            surface = other.Surface;
-            light[band].AddMultiple(other.SurfaceMultiple, weight);
-          }
-          light[band].Surface += weight * surface;
-        }
-      });
-  }
-
-  void AverageRays(double x, double y, PixelLight light[]) const
-  {
-    const double weight = 1.0 / (EdgeSamples * EdgeSamples);
-    this->ForEachSample(x, y, EdgeSamples,
-      [&](const Vec3& ray, const Hit& end)
-      {
-        for (int band = 0; band < this->Bands_; ++band)
-        {
-          light[band].Add(this->View_.Trace(this->Camera_.Position, ray, end, band), weight);
-        }
-      });
-  }
-
-  void Put(std::size_t pixel, const PixelLight light[]) const
+  void Put(std::size_t pixel, const std::array<PixelLight, MaxBands>& light) const
   {
     Spectrum surface{}, veil{};
     Lanes multiple;
@@ -256,24 +294,24 @@ TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Pr
   image.LuminanceRGB.resize(3 * pixels);
   image.SignIds.resize(pixels);
 
-  const PixelTracer tracer(view, camera, acuity, image);
+  const BlockTracer tracer(view, camera, acuity, image);
   const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<std::size_t> done{0};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 16),
-    [&](const tbb::blocked_range<std::size_t>& range)
+  const int columns = (camera.Width + BlockSize - 1) / BlockSize;
+  const int rows = (camera.Height + BlockSize - 1) / BlockSize;
+  const int blocks = columns * rows;
+  std::atomic<int> done{0};
+  tbb::parallel_for(0, blocks,
+    [&](int block)
     {
-      for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel)
+      if (progress.ShouldStop())
       {
-        if (progress.ShouldStop())
-        {
-          return;
-        }
-        tracer.Trace(pixel);
+        return;
       }
-      const std::size_t count = done.fetch_add(range.size(), std::memory_order_relaxed);
+      tracer.Trace(block % columns * BlockSize, block / columns * BlockSize);
+      const int count = done.fetch_add(1, std::memory_order_relaxed) + 1;
       if (std::this_thread::get_id() == caller)
       {
-        progress.Report(static_cast<double>(count) / static_cast<double>(pixels));
+        progress.Report(static_cast<double>(count) / blocks);
       }
     });
   if (progress.ShouldStop())

@@ -52,9 +52,9 @@ void ForEachLeaf(vtkDataObject* object, const std::string& name, const LeafVisit
   for (std::size_t i = 0; i < children.size(); ++i)
   {
     ForEachLeaf(children[i].Object,
-      children[i].Name         ? std::string(children[i].Name)
-        : children.size() == 1 ? name
-                               : name + "[" + std::to_string(i) + "]",
+      children[i].Name       ? std::string(children[i].Name)
+      : children.size() == 1 ? name
+                             : name + "[" + std::to_string(i) + "]",
       visit);
   }
 }
@@ -206,7 +206,7 @@ std::vector<Child> Children(vtkDataObject* object)
   const auto add = [&](vtkDataObject* child, vtkInformation* meta)
   {
     const bool named = meta && meta->Has(vtkCompositeDataSet::NAME());
-    children.push_back({ child, named ? meta->Get(vtkCompositeDataSet::NAME()) : nullptr });
+    children.push_back({child, named ? meta->Get(vtkCompositeDataSet::NAME()) : nullptr});
   };
   if (auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(object))
   {
@@ -268,6 +268,45 @@ vtkDataArray* CellArray(
       threeAllowed ? "Give 1, or 3 for red, green and blue" : "Give one number a cell");
   }
   return values;
+}
+
+//------------------------------------------------------------------------------
+void MatchComponents(const std::vector<SurfaceBlock*>& blocks, const char* array)
+{
+  std::vector<SurfaceBlock*> narrow;
+  bool wide = false;
+  for (SurfaceBlock* const block : blocks)
+  {
+    if (vtkDataArray* const values = CellArray(*block->Mesh, block->Name, array, true))
+    {
+      if (values->GetNumberOfComponents() == 3)
+      {
+        wide = true;
+      }
+      else
+      {
+        narrow.push_back(block);
+      }
+    }
+  }
+  if (!wide)
+  {
+    return;
+  }
+  for (SurfaceBlock* const block : narrow)
+  {
+    vtkCellData* const cells = block->Mesh->GetCellData();
+    vtkDataArray* const values = cells->GetArray(array);
+    auto expanded = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+    expanded->SetName(array);
+    expanded->SetNumberOfComponents(3);
+    expanded->SetNumberOfTuples(values->GetNumberOfTuples());
+    for (int component = 0; component < 3; ++component)
+    {
+      expanded->CopyComponent(component, values, 0);
+    }
+    cells->AddArray(expanded);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -65,6 +65,10 @@ vtkDataObject* FindBlock(vtkDataObject* collection, const std::string& name);
 vtkDataArray* CellArray(
   vtkDataSet& block, const std::string& blockName, const char* array, bool threeAllowed);
 
+/// Gives a cell array three components in all blocks where it has three in one of them: ParaView
+/// expects one number of components for all arrays of a name.
+void MatchComponents(const std::vector<SurfaceBlock*>& blocks, const char* array);
+
 /// Whether a cell is marked as hidden.
 bool HiddenCell(vtkDataSet& block, vtkIdType cell);
 

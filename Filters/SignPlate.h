@@ -49,7 +49,7 @@ struct Stencil
   int Height = 0;
   std::vector<double> Grey;
 
-  /// Reads a PNG or any image that VTK can read. Throws Error where the file is missing, not an
+  /// Reads a PNG file. Throws Error where the file is missing, not an
   /// image, damaged, or has more than MaximumPixels.
   static Stencil Read(const std::string& fileName);
 

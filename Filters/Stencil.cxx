@@ -1,18 +1,10 @@
-// Reads the image file that a sign's pattern comes from.
-#include "ErrorCollector.h"
+// Reads the PNG file that a sign's pattern comes from. libpng is used directly: VTK's reader
+// crashes on damaged files.
 #include "Errors.h"
 #include "SignPlate.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkSmartPointer.h>
+#include <png.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 namespace smokevis
@@ -22,18 +14,14 @@ namespace
 
 const char* const Remedy = "Give a PNG file, a cell of the sign a pixel";
 
-/// The grey level of white in an array of this type.
-double White(vtkDataArray& pixels)
+/// libpng's image, freed at the end of its scope.
+struct PngImage : png_image
 {
-  switch (pixels.GetDataType())
-  {
-  case VTK_FLOAT:
-  case VTK_DOUBLE:
-    return 1.0;
-  default:
-    return pixels.GetDataTypeMax();
-  }
-}
+  PngImage() : png_image() { this->version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(this); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+};
 
 } // namespace
 
@@ -50,51 +38,36 @@ Stencil Stencil::Read(const std::string& fileName)
   {
     throw Error(where, "there is no such file", Remedy);
   }
-  const auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-    vtkImageReader2Factory::CreateImageReader2(fileName.c_str()));
-  if (!reader)
+  PngImage image;
+  if (png_image_begin_read_from_file(&image, fileName.c_str()) == 0)
   {
-    throw Error(where, "it is not an image of a known format", Remedy);
+    throw Error(
+      where, std::string("it is not a PNG image, or damaged (") + image.message + ")", Remedy);
   }
-  vtkNew<ErrorCollector> errors;
-  reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->AddObserver(vtkCommand::WarningEvent, errors);
-  reader->SetFileName(fileName.c_str());
-  reader->UpdateInformation();
-  int extent[6];
-  reader->GetDataExtent(extent);
-  const std::int64_t width = static_cast<std::int64_t>(extent[1]) - extent[0] + 1;
-  const std::int64_t height = static_cast<std::int64_t>(extent[3]) - extent[2] + 1;
-  if (!errors->Text().empty() || width < 1 || height < 1)
-  {
-    throw Error(where, "it is damaged, its size cannot be read", Remedy);
-  }
-  if (width > MaximumPixels || height > MaximumPixels || width * height > MaximumPixels)
+  const auto pixels = static_cast<std::int64_t>(image.width) * image.height;
+  if (pixels > MaximumPixels)
   {
     throw Error(where,
-      "its " + std::to_string(width) + " x " + std::to_string(height) + " pixels are more than " +
-        std::to_string(MaximumPixels),
+      "its " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+        " pixels are more than " + std::to_string(MaximumPixels),
       "Scale the image down, a sign needs no more detail than the eye resolves");
   }
-  reader->Update();
-  vtkDataArray* pixels = reader->GetOutput()->GetPointData()->GetScalars();
-  if (!errors->Text().empty() || !pixels || pixels->GetNumberOfTuples() != width * height)
-  {
-    throw Error(where, "it is damaged, its pixels cannot be read", Remedy);
-  }
-
   Stencil stencil;
-  stencil.Width = static_cast<int>(width);
-  stencil.Height = static_cast<int>(height);
-  stencil.Grey.resize(width * height);
-  const double white = White(*pixels);
-  const bool coloured = pixels->GetNumberOfComponents() >= 3;
-  for (vtkIdType i = 0; i < width * height; ++i)
+  stencil.Width = static_cast<int>(image.width);
+  stencil.Height = static_cast<int>(image.height);
+  // What is transparent counts as black.
+  image.format = PNG_FORMAT_GRAY;
+  const png_color background = {0, 0, 0};
+  std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
+  // A negative stride puts the bottom row first.
+  if (png_image_finish_read(
+        &image, &background, bytes.data(), -static_cast<png_int_32>(image.width), nullptr) == 0)
   {
-    const Spectrum value = {pixels->GetComponent(i, 0), coloured ? pixels->GetComponent(i, 1) : 0.0,
-      coloured ? pixels->GetComponent(i, 2) : 0.0};
-    const double grey = Luminance(value, coloured ? 3 : 1) / white;
-    stencil.Grey[i] = std::isfinite(grey) ? std::clamp(grey, 0.0, 1.0) : 0.0;
+    throw Error(where, std::string("it is damaged (") + image.message + ")", Remedy);
+  }
+  for (const png_byte byte : bytes)
+  {
+    stencil.Grey.push_back(byte / 255.0);
   }
   return stencil;
 }

@@ -108,7 +108,7 @@ public:
 
   ///@{
   /**
-   * Image file of the pattern IMAGE, for example a PNG, with at most 250000 pixels. Each pixel
+   * PNG file of the pattern IMAGE, with at most 250000 pixels. Each pixel
    * becomes a cell; its grey level, taken as linear, leads from UnlitLuminance (black) to Luminance
    * (white). Default: none.
    */

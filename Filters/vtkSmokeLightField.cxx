@@ -222,6 +222,17 @@ void vtkSmokeLightField::Solve(
       "Connect signs or lamps, such as the sources ExitSign and Luminaire");
   }
 
+  std::vector<SurfaceBlock*> patches;
+  for (auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (SurfaceBlock& block : *group)
+    {
+      patches.push_back(&block);
+    }
+  }
+  smokevis::MatchComponents(patches, "Reflectance");
+  smokevis::MatchComponents(patches, "Luminance");
+
   smokevis::SceneOptions options;
   options.Bands = this->Bands;
   if (this->Bands == RGB)

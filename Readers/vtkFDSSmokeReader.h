@@ -18,9 +18,11 @@
  * used, 0.3 where the index does not say), `Time` (double: time of the frame [s]) and `CHID`
  * (string).
  *
- * K comes from 3-D slices, cell-centred rather than node-centred: EXTINCTION COEFFICIENT, else
- * OPTICAL DENSITY, else DENSITY of the smoke species, else VISIBILITY. Smoke species add. Of
- * node-centred slices a cell gets the mean of its eight nodes.
+ * K comes, on each mesh and for each smoke species, from the best of what the run wrote in 3-D:
+ * slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, each cell-centred
+ * before node-centred; 8-bit smoke (.s3d, .s3dd) that holds density; Plot3D; slices of VISIBILITY;
+ * 8-bit smoke that holds opacity. Parts of a mesh are completed by the next best. Smoke species
+ * add. Of nodes, a cell gets the mean of its eight.
  *
  * Output 1, Geometry, is a vtkPolyData of rectangles with their front towards the gas: obstructions
  * and the outer boundaries of the meshes that are not open. Cell arrays:

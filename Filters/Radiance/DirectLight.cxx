@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis
 {
@@ -18,12 +19,17 @@ constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
 /// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
 constexpr double DeepestDepth = 100.0;
-/// One way stands for all ways to a group below this r/d.
-constexpr double PathRatio = 0.35;
+/// One way stands for all ways to a group below this r/d; above it each Gauss point of a leaf has its
+/// own.
+constexpr double PathRatio = 0.1;
 /// A leaf is split in four above this r/d, where three Gauss points an edge do not follow its
 /// transmittance any more.
 constexpr double LeafRatio = 0.7;
 constexpr int LeafSplits = 4;
+constexpr double CutRatio = 0.02;
+/// Places on a light that are tried for whether they are hidden: at first, and where some are.
+constexpr int FewTargets = 4;
+constexpr int ManyTargets = 32;
 /// A box or triangle as large as this share of its distance to the light is split.
 constexpr double BoxRatio = 0.5;
 constexpr int BoxSplits = 3;
@@ -50,6 +56,22 @@ double BilinearArea(const std::array<Vec3, 4>& corners, double u, double v)
   return glm::length(glm::cross(du, dv));
 }
 
+/// Mean place of exp(-2 x t) over t in (-1/2, 1/2), times -2: coth x - 1 / x.
+double Langevin(double x)
+{
+  return std::abs(x) < 1e-3 ? x / 3.0 : 1.0 / std::tanh(x) - 1.0 / x;
+}
+
+/// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
+double MeanAttenuation(double x, double shift)
+{
+  const double size = std::abs(x);
+  const double logarithm = size < 1e-3
+    ? size * size / 6.0
+    : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
+  return std::exp(logarithm - x * shift);
+}
+
 LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
 {
   LightGroup part = leaf;
@@ -72,42 +94,46 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
 
 } // namespace
 
-double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
+void DirectLight::TryTargets(
+  const LightGroup& group, const Vec3& point, int count, Tally& tally) const
 {
   const Geometry& shapes = this->Scene_.Shapes();
-  int visible = 0;
-  int tried = 0;
-  const auto tryPoint = [&](const Vec3& target)
-  {
-    ++tried;
-    visible += shapes.Visible(point, target) ? 1 : 0;
-  };
-  if (group.FirstChild < 0)
-  {
-    for (const double u : { 0.25, 0.75 })
-    {
-      for (const double v : { 0.25, 0.75 })
-      {
-        tryPoint(Bilinear(group.Corners, u, v));
-      }
-    }
-  }
-  else
+  if (group.FirstChild >= 0 && count >= 2)
   {
     const auto& groups = this->Scene_.Lights().Groups();
-    for (int child = group.FirstChild; child < group.FirstChild + 2; ++child)
+    this->TryTargets(groups[group.FirstChild], point, count / 2, tally);
+    this->TryTargets(groups[group.FirstChild + 1], point, count / 2, tally);
+    return;
+  }
+  if (group.FirstChild >= 0 || count == 1)
+  {
+    ++tally.Tried;
+    tally.Visible += shapes.Visible(point, group.Centre) ? 1 : 0;
+    return;
+  }
+  const int edge = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int i = 0; i < edge; ++i)
+  {
+    for (int j = 0; j < edge; ++j)
     {
-      const int grandchild = groups[child].FirstChild;
-      if (grandchild < 0)
-      {
-        tryPoint(groups[child].Centre);
-        continue;
-      }
-      tryPoint(groups[grandchild].Centre);
-      tryPoint(groups[grandchild + 1].Centre);
+      ++tally.Tried;
+      const Vec3 target = Bilinear(group.Corners, (i + 0.5) / edge, (j + 0.5) / edge);
+      tally.Visible += shapes.Visible(point, target) ? 1 : 0;
     }
   }
-  return static_cast<double>(visible) / tried;
+}
+
+double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
+{
+  Tally tally;
+  this->TryTargets(group, point, FewTargets, tally);
+  if (tally.Visible > 0 && tally.Visible < tally.Tried)
+  {
+    // Partly hidden: how much is worth a closer look.
+    tally = {};
+    this->TryTargets(group, point, ManyTargets, tally);
+  }
+  return static_cast<double>(tally.Visible) / tally.Tried;
 }
 
 DirectLight::Path DirectLight::SamplePath(
@@ -196,7 +222,7 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
     : SolidAngle(point, corners[0], corners[1], corners[2]) +
       SolidAngle(point, corners[0], corners[2], corners[3]);
   // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
-  const bool few = leaf.Radius < 0.1 * glm::length(leaf.Centre - point);
+  const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
   const int order = few ? 2 : 3;
   double weights = 0.0;
   Spectrum weighted{};
@@ -221,10 +247,12 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
       {
         weight *= std::pow(cosine, leaf.Exponent);
       }
+      const double depth = few
+        ? path.MeanExtinction * distance
+        : this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        weighted[band] += weight *
-          std::exp(-this->Scene_.ExtinctionScale(band) * path.MeanExtinction * distance);
+        weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
       }
     }
   }
@@ -250,6 +278,9 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
     return;
   }
   const double ratio = group.Radius / glm::length(to);
+  // A leaf that the receiver's horizon cuts is split until the rest does not matter.
+  const bool cut = leaf && splits > 0 && receiver.Normal && ratio > CutRatio &&
+    std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
   Path own;
   const bool last = leaf && splits == 0;
   if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
@@ -265,7 +296,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   {
     this->AddPoint(group, receiver, *path, sum);
   }
-  else if (leaf && (ratio < LeafRatio || last))
+  else if (leaf && !cut && (ratio < LeafRatio || last))
   {
     this->AddLeaf(group, receiver, *path, sum);
   }
@@ -348,33 +379,59 @@ Spectrum DirectLight::BoxFluence(
     }
     return sum;
   }
-  Spectrum value = this->Fluence(light, centre, clear);
-  if (edge > BoxRatio * distance)
+  Vec3 middle = centre;
+  Vec3 extent = size;
+  double lit = 1.0;
+  const bool close = edge > BoxRatio * distance;
+  if (close)
   {
-    return value;
+    // As fine as boxes get. One that the plate's plane cuts is lit only in front of it.
+    const double height = glm::dot(from, root.Normal);
+    const double reach = 0.5 * glm::dot(glm::abs(root.Normal), size);
+    lit = std::clamp(0.5 * (height / reach + 1.0), 0.0, 1.0);
+    middle += (lit < 1.0 ? 0.5 * (reach - height) : 0.0) * root.Normal;
+    extent *= glm::mix(Vec3(1.0), Vec3(lit), glm::abs(root.Normal));
   }
-  // Mean over the box from the value at its centre: second derivatives of cos exp(-K d) / d^2.
-  const double extinction = [&]
+  if (lit == 0.0)
   {
-    const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-    return cell < 0 ? 0.0 : static_cast<double>(this->Scene_.Smoke().Extinction(cell));
-  }();
-  const double inverse = 1.0 / toCentre;
-  const Vec3 along = from * inverse;
-  for (int band = 0; band < this->Scene_.Bands(); ++band)
+    return {};
+  }
+  // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own, where
+  // the rest of the light's variation is taken.
+  const Vec3 along = toCentre > root.Radius ? from / toCentre : root.Normal;
+  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+  const double extinction = cell < 0
+    ? 0.0
+    : this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(0);
+  Vec3 place = middle;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const double k = extinction * this->Scene_.ExtinctionScale(band);
-    const double first = -(k + 2.0 * inverse);
-    const double second = first * first + 2.0 * inverse * inverse;
-    double correction = 1.0;
+    place[axis] -=
+      0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
+  }
+  Spectrum value = this->Fluence(light, place, clear);
+  double curvature = 1.0;
+  if (!close)
+  {
+    // What is left: second derivatives of cos / d^2.
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double parallel = along[axis] * along[axis];
-      correction += size[axis] * size[axis] / 24.0 *
-        (second * parallel + (first - inverse) * inverse * (1.0 - parallel));
+      curvature += extent[axis] * extent[axis] *
+        (9.0 * along[axis] * along[axis] - 3.0) / (24.0 * toCentre * toCentre);
     }
-    // Through thick cells the expansion means nothing.
-    value[band] *= std::clamp(correction, 0.5, 2.0);
+  }
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    const double k = extinction * this->Scene_.ExtinctionScale(band) /
+      std::max(1e-300, this->Scene_.ExtinctionScale(0));
+    double factor = lit * curvature;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double half = 0.5 * k * along[axis] * extent[axis];
+      const double first = 0.5 * extinction * along[axis] * extent[axis];
+      factor *= MeanAttenuation(half, Langevin(first));
+    }
+    value[band] *= factor;
   }
   return value;
 }
@@ -403,7 +460,7 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     return;
   }
-  if (splits > 0 && size > TriangleRatio * distance)
+  const auto splitAll = [&]
   {
     const std::array<Vec3, 3> middle = { 0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
@@ -415,6 +472,10 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
     this->AddTriangle(
       light, { middle[2], middle[1], corners[2] }, normal, splits - 1, quarter, sum);
     this->AddTriangle(light, middle, normal, splits - 1, quarter, sum);
+  };
+  if (splits > 0 && size > TriangleRatio * distance)
+  {
+    splitAll();
     return;
   }
   // Three points are exact for a quadratic (Strang and Fix).
@@ -424,22 +485,42 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);
   }
-  for (int i = 0; i < count; ++i)
+  std::array<Spectrum, 2> mean{};
+  bool uneven = false;
+  for (int face = 0; face < 2; ++face)
   {
-    // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
-    const double side = glm::dot(root.Centre - points[i], normal);
-    for (int face = 0; face < 2; ++face)
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (int i = 0; i < count; ++i)
     {
-      const double facing = face == 0 ? side : -side;
-      if (facing <= -root.Radius)
+      // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
+      const double side = glm::dot(root.Centre - points[i], normal);
+      if ((face == 0 ? side : -side) <= -root.Radius)
       {
+        least = 0.0;
         continue;
       }
       const Spectrum value = this->Illuminance(light, points[i], face == 0 ? normal : -normal);
+      least = std::min(least, value[0]);
+      most = std::max(most, value[0]);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        sum[face][band] += weight / count * value[band];
+        mean[face][band] += value[band] / count;
       }
+    }
+    uneven = uneven || least < 0.5 * most;
+  }
+  if (uneven && splits > 0)
+  {
+    // The edge of a shadow runs through the triangle.
+    splitAll();
+    return;
+  }
+  for (int face = 0; face < 2; ++face)
+  {
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[face][band] += weight * mean[face][band];
     }
   }
 }

@@ -52,6 +52,15 @@ private:
     double Visible;
   };
 
+  /// Places on a light that were tried, and how many of them are not hidden.
+  struct Tally
+  {
+    int Tried = 0;
+    int Visible = 0;
+  };
+
+  void TryTargets(
+    const LightGroup& group, const Vec3& point, int count, Tally& tally) const;
   double VisibleShare(const LightGroup& group, const Vec3& point) const;
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,

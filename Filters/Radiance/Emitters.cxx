@@ -3,6 +3,7 @@
 #include "Errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -100,7 +101,7 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::arra
 
 } // namespace
 
-EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands)
+EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)
   : Bands_(bands)
   , Cells_(std::move(cells))
 {
@@ -122,16 +123,21 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands)
     this->Centres_.push_back(centre / (6.0 * this->Areas_.back()));
   }
   this->FindSigns();
-  this->BuildLights();
+  this->BuildLights(largestLight);
+}
+
+double EmitterSet::CellFlux(std::size_t cell, int band) const
+{
+  return glm::two_pi<double>() * this->Cells_[cell].Luminance[band] * this->Areas_[cell] /
+    (this->Cells_[cell].Exponent + 2.0);
 }
 
 double EmitterSet::Flux(int band) const
 {
   double flux = 0.0;
-  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  for (std::size_t cell = 0; cell < this->Cells_.size(); ++cell)
   {
-    flux += glm::two_pi<double>() * this->Cells_[i].Luminance[band] * this->Areas_[i] /
-      (this->Cells_[i].Exponent + 2.0);
+    flux += this->CellFlux(cell, band);
   }
   return flux;
 }
@@ -184,11 +190,22 @@ void EmitterSet::FindSigns()
   }
 }
 
-void EmitterSet::BuildLights()
+std::vector<int> EmitterSet::JoinCells() const
 {
-  // Lamps stay apart; the cells of a sign join where normal and exponent agree.
-  std::vector<std::vector<LightGroup>> lights;
-  std::map<int, std::vector<std::size_t>> lightsOfSign;
+  // Cells join when they share what a light must have in common and, for lamps, a corner: a ceiling's
+  // lamps stay apart, the pieces of a luminous panel do not.
+  using Key = std::array<double, 8>;
+  std::map<Key, int> lights;
+  std::vector<int> parent;
+  const auto find = [&parent](int light)
+  {
+    while (parent[light] != light)
+    {
+      light = parent[light] = parent[parent[light]];
+    }
+    return light;
+  };
+  std::vector<int> lightOf(this->Cells_.size(), -1);
   for (std::size_t i = 0; i < this->Cells_.size(); ++i)
   {
     const EmitterCell& cell = this->Cells_[i];
@@ -196,38 +213,72 @@ void EmitterSet::BuildLights()
     {
       continue;
     }
-    std::vector<LightGroup>* light = nullptr;
+    lightOf[i] = static_cast<int>(parent.size());
+    parent.push_back(lightOf[i]);
+    const Vec3& n = this->Normals_[i];
+    const auto join = [&](const Vec3& place)
+    {
+      const auto round = [](double value, double step) { return std::round(value / step) * step; };
+      const double grid = 1e-4 * std::sqrt(this->Areas_[i]);
+      const double step = std::exp2(std::ceil(std::log2(grid)));
+      const Key key = { static_cast<double>(cell.SignId), cell.Exponent, round(n.x, 1e-5),
+        round(n.y, 1e-5), round(n.z, 1e-5), round(place.x, step), round(place.y, step),
+        round(place.z, step) };
+      const auto [known, fresh] = lights.try_emplace(key, lightOf[i]);
+      if (!fresh)
+      {
+        parent[find(lightOf[i])] = find(known->second);
+      }
+    };
     if (cell.SignId >= 0)
     {
-      for (const std::size_t candidate : lightsOfSign[cell.SignId])
-      {
-        const LightGroup& other = lights[candidate].front();
-        if (other.Exponent == cell.Exponent &&
-          glm::length(other.Normal - this->Normals_[i]) < 1e-6)
-        {
-          light = &lights[candidate];
-          break;
-        }
-      }
+      join(Vec3(0.0));
+      continue;
     }
-    if (light == nullptr)
+    for (const Vec3& vertex : cell.Vertices)
     {
-      if (cell.SignId >= 0)
-      {
-        lightsOfSign[cell.SignId].push_back(lights.size());
-      }
-      light = &lights.emplace_back();
+      join(vertex);
     }
+  }
+  for (int& light : lightOf)
+  {
+    light = light < 0 ? -1 : find(light);
+  }
+  return lightOf;
+}
+
+void EmitterSet::BuildLights(double largestLight)
+{
+  const std::vector<int> lightOf = this->JoinCells();
+  std::map<int, std::vector<LightGroup>> lights;
+  std::map<int, double> areas;
+  this->LeftToLines_.assign(this->Cells_.size(), false);
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    if (lightOf[i] < 0)
+    {
+      continue;
+    }
+    areas[lightOf[i]] += this->Areas_[i];
+    const EmitterCell& cell = this->Cells_[i];
     const std::vector<Vec3>& vertices = cell.Vertices;
     for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
     {
       const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
-      light->push_back(
+      lights[lightOf[i]].push_back(
         MakeLeaf(cell, this->Normals_[i], { vertices[0], vertices[v], vertices[v + 1], last }));
     }
   }
-  for (std::vector<LightGroup>& leaves : lights)
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
   {
+    this->LeftToLines_[i] = lightOf[i] >= 0 && areas[lightOf[i]] > largestLight;
+  }
+  for (auto& [light, leaves] : lights)
+  {
+    if (areas[light] > largestLight)
+    {
+      continue;
+    }
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());

@@ -54,15 +54,17 @@ struct LightGroup
   std::array<Vec3, 4> Corners{};
 };
 
-/// All emitters of a scene. Cells that light together (the lit cells of one sign that share a normal,
-/// or the cell of a lamp) form one light, a tree of groups.
+/// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells of
+/// lamps, that share a plane) form one light, a tree of groups. A light that is large against the scene,
+/// such as a luminous wall, is met by random lines often enough to leave it to them.
 class EmitterSet
 {
 public:
   EmitterSet() = default;
   /// Checks the cells; throws Error for polygons that are not plane and convex, and for luminances,
   /// exponents or reflectances out of range.
-  EmitterSet(std::vector<EmitterCell> cells, int bands);
+  /// @param largestLight area above which a light is left to the random lines [m2]
+  EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight);
 
   int Bands() const { return this->Bands_; }
   const std::vector<EmitterCell>& Cells() const { return this->Cells_; }
@@ -71,21 +73,28 @@ public:
   double CellArea(std::size_t cell) const { return this->Areas_[cell]; }
   /// Signs in the order of their ids.
   const std::vector<Sign>& Signs() const { return this->Signs_; }
-  /// Roots of the lights among Groups().
+  /// Whether the cell's own light is carried by random lines, not by Lights().
+  bool LeftToLines(std::size_t cell) const { return this->LeftToLines_[cell]; }
+  /// Roots, among Groups(), of the lights that shine directly.
   const std::vector<int>& Lights() const { return this->Lights_; }
   const std::vector<LightGroup>& Groups() const { return this->Groups_; }
   /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2).
   double Flux(int band) const;
+  /// Luminous flux of one cell [lm].
+  double CellFlux(std::size_t cell, int band) const;
 
 private:
   void FindSigns();
-  void BuildLights();
+  /// Numbers the lights that cells belong to; cells without light of their own get -1.
+  std::vector<int> JoinCells() const;
+  void BuildLights(double largestLight);
   void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);
 
   int Bands_ = 1;
   std::vector<EmitterCell> Cells_;
   std::vector<Vec3> Normals_, Centres_;
   std::vector<double> Areas_;
+  std::vector<bool> LeftToLines_;
   std::vector<Sign> Signs_;
   std::vector<int> Lights_;
   std::vector<LightGroup> Groups_;

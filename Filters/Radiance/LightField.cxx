@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "LineSweep.h"
 #include "Sampler.h"
+#include "Settling.h"
 #include "VeilProbes.h"
 
 #include <algorithm>
@@ -20,18 +21,17 @@ namespace smokevis
 namespace
 {
 
-/// Sweeps that let the orders of scattering build up: at least, and at most.
-constexpr int FewestSettling = 4;
-constexpr int MostSettling = 2000;
-/// Sweeps that are averaged: at least, and at most.
-constexpr int FewestCounted = 4;
-constexpr int MostCounted = 4096;
+/// Sweeps of the first window in which the orders of scattering build up; each next one is twice as
+/// long. Sweeps that may be drawn in all.
+constexpr int FirstWindow = 3;
+constexpr int MostSweeps = 6144;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that the
-/// change from sweep to sweep is.
+/// drift from window to window is.
 constexpr double ErrorShare = 0.5;
-constexpr double SettledShare = 0.1;
+constexpr double DriftShare = 1.0;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
+constexpr double SettleShare = 0.2;
 
 /// The work that one solve goes through, with what its steps share.
 class Solver
@@ -52,8 +52,10 @@ private:
   void SolveCells();
   void SolvePatches();
   void SolveMultiple(int band);
+  void Balance(const LineSweep& sweep, double source, std::vector<double>& before,
+    std::vector<BatchState>& batches) const;
   int Settle(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
-  void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool count);
+  void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
   void CheckStop() const
   {
@@ -190,86 +192,97 @@ void Solver::SolvePatches()
 }
 
 void Solver::Sweep(
-  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool count)
+  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
 {
   // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
   this->Arena_.execute(
     [&]
     {
       tbb::parallel_for(std::size_t{ 0 }, batches.size(),
-        [&](std::size_t batch)
-        { sweep.Run(batches[batch], Mix(key) + batch, count, this->Progress_); });
+        [&](std::size_t batch) { sweep.Run(batches[batch], Mix(key) + batch, this->Progress_); });
     });
   this->CheckStop();
+}
+
+void Solver::Balance(const LineSweep& sweep, double source, std::vector<double>& before,
+  std::vector<BatchState>& batches) const
+{
+  // The power that surfaces and smoke send out again must be that which arrived and was not lost. A
+  // field that is scaled to be in balance as a whole has its slowest mode's series of reflections
+  // summed at once.
+  std::vector<double> after(batches.size());
+  double sumBefore = 0.0;
+  double sumAfter = 0.0;
+  for (std::size_t i = 0; i < batches.size(); ++i)
+  {
+    after[i] = sweep.LaterSource(batches[i]);
+    sumBefore += before[i] / Batches;
+    sumAfter += after[i] / Batches;
+  }
+  const double kept = source + sumBefore - sumAfter;
+  if (!(kept > 1e-9 * (source + sumBefore)))
+  {
+    throw Error("light field", "no light is lost anywhere, so that it would grow without end",
+      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+  }
+  const double scale = std::clamp(source / kept, 0.25, 1e4);
+  for (std::size_t i = 0; i < batches.size(); ++i)
+  {
+    for (std::vector<float>* values : { &batches[i].Fluence, &batches[i].Illuminance })
+    {
+      for (float& value : *values)
+      {
+        value *= static_cast<float>(scale);
+      }
+    }
+    before[i] = after[i] * scale;
+  }
 }
 
 int Solver::Settle(
   const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
 {
-  // The power that surfaces and smoke send out again must be that which arrived and was not lost:
-  // after each sweep the field is scaled so that the scene is in balance as a whole. That sums the
-  // slowest mode's series of reflections at once.
   const double source = sweep.FirstSource();
   std::vector<double> before(batches.size(), 0.0);
-  double previousChange = 0.0;
-  int quiet = 0;
-  for (int count = 1; count <= MostSettling; ++count)
+  BlockMeans earlier;
+  int done = 0;
+  for (int window = FirstWindow;; window *= 2)
   {
-    this->Sweep(sweep, batches, key + count, false);
-    std::vector<double> after(batches.size());
-    double sumBefore = 0.0;
-    double sumAfter = 0.0;
-    for (std::size_t i = 0; i < batches.size(); ++i)
+    for (BatchState& batch : batches)
     {
-      after[i] = sweep.LaterSource(batches[i]);
-      sumBefore += before[i] / Batches;
-      sumAfter += after[i] / Batches;
+      batch.Restart();
     }
-    const double kept = source + sumBefore - sumAfter;
-    if (!(kept > 1e-9 * (source + sumBefore)))
+    const int first = done;
+    for (; done < first + window; ++done)
+    {
+      this->Sweep(sweep, batches, key + done);
+      if (first == 0)
+      {
+        this->Balance(sweep, source, before, batches);
+      }
+      this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
+    }
+    BlockMeans now(batches);
+    if (first > 0 &&
+      now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
+    {
+      return done;
+    }
+    if (done + 2 * window > MostSweeps)
     {
       throw Error("light field",
-        "no light is lost anywhere, so that it would grow without end",
-        "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+        "the light did not settle in " + std::to_string(done) + " sweeps",
+        "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that light "
+        "is hardly ever lost");
     }
-    const double scale = std::clamp(source / kept, 0.25, 1e4);
-    double squares = 0.0;
-    for (std::size_t i = 0; i < batches.size(); ++i)
-    {
-      const double change = after[i] - before[i] - (sumAfter - sumBefore);
-      squares += change * change;
-      BatchState& state = batches[i];
-      for (std::vector<float>* values : { &state.Fluence, &state.Illuminance })
-      {
-        for (float& value : *values)
-        {
-          value *= static_cast<float>(scale);
-        }
-      }
-      before[i] = after[i] * scale;
-    }
-    this->Progress_.Report(DirectShare + 0.2 * (1.0 - std::exp(-0.05 * count)));
-    // Settled: what the change would still add up to is below the tolerance, or below its own noise.
-    const double total = source + sumAfter;
-    const double change = std::abs(sumAfter - sumBefore) / total;
-    const double noise = std::sqrt(squares / (Batches * (Batches - 1.0))) / total;
-    const double ratio = previousChange > 0.0 ? std::min(0.99, change / previousChange) : 0.99;
-    const double rest = change * ratio / (1.0 - ratio);
-    previousChange = change;
-    quiet = rest < SettledShare * this->Options_.Tolerance || change < 2.0 * noise ? quiet + 1 : 0;
-    if (count >= FewestSettling && quiet >= 2)
-    {
-      return count;
-    }
+    earlier = std::move(now);
   }
-  throw Error("light field",
-    "the light did not settle in " + std::to_string(MostSettling) + " sweeps",
-    "Check for an albedo and reflectances so close to 1 that light is hardly ever lost");
 }
 
 void Solver::SolveMultiple(int band)
 {
   const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
   const bool scatters = this->Scene_.Albedo() > 0.0 && smoke.MaximumExtinction() > 0.0F &&
     this->Scene_.ExtinctionScale(band) > 0.0;
   bool reflects = false;
@@ -277,8 +290,13 @@ void Solver::SolveMultiple(int band)
   {
     reflects = this->Scene_.PatchReflectance(patch)[band] > 0.0;
   }
+  bool carried = false;
+  for (std::size_t cell = 0; cell < lights.Cells().size() && !carried; ++cell)
+  {
+    carried = lights.LeftToLines(cell);
+  }
   const std::string name = "band " + std::to_string(band) + ": ";
-  if (!scatters && !reflects && !smoke.Emits())
+  if (!scatters && !reflects && !carried && !smoke.Emits())
   {
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
       "albedo or extinction is 0 and no surface reflects");
@@ -294,24 +312,27 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  const int settling = this->Settle(sweep, batches, key);
+  int done = this->Settle(sweep, batches, key);
+  const int settling = done - batches.front().Counted;
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
-  double error = 0.0;
-  int counted = 0;
-  for (int next = FewestCounted;; next = std::min(MostCounted, next + (next + 1) / 2))
+  double error = probes.RelativeError(batches);
+  while (error > ErrorShare * this->Options_.Tolerance && done < MostSweeps)
   {
-    for (; counted < next; ++counted)
+    // The error falls with the root of the sweeps: as many as seem to be missing, at most twice as
+    // many again.
+    const double share = error / (ErrorShare * this->Options_.Tolerance);
+    const int counted = batches.front().Counted;
+    const int wanted = static_cast<int>(std::ceil(counted * std::min(2.0, share * share)));
+    const int until = std::min(MostSweeps, done + std::max(1, wanted - counted));
+    for (; done < until; ++done)
     {
-      this->Sweep(sweep, batches, key + MostSettling + 1 + counted, true);
-      this->Progress_.Report(
-        DirectShare + 0.2 + (0.95 - DirectShare - 0.2) * (1.0 - std::exp(-0.02 * counted)));
+      this->Sweep(sweep, batches, key + done);
+      this->Progress_.Report(DirectShare + SettleShare +
+        (0.95 - DirectShare - SettleShare) * (1.0 - std::exp(-0.02 * (done - settling))));
     }
     error = probes.RelativeError(batches);
-    if (error <= ErrorShare * this->Options_.Tolerance || counted >= MostCounted)
-    {
-      break;
-    }
   }
+  const int counted = batches.front().Counted;
   for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
   {
     Lanes& lanes = this->Field_.MultipleFluence[this->Field_.CellIndex(band, cell)];
@@ -329,7 +350,7 @@ void Solver::SolveMultiple(int band)
       lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
     }
   }
-  this->Say(name + "settling sweeps", settling, "orders of scattering that had to build up");
+  this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
@@ -367,7 +388,14 @@ LightField Solver::Run()
   this->Field_.MultipleFluence.assign(bands * this->Field_.Cells, Lanes());
   this->Field_.DirectIlluminance.assign(bands * this->Field_.Patches * 2, 0.0F);
   this->Field_.MultipleIlluminance.assign(bands * this->Field_.Patches * 2, Lanes());
-  if (this->Scene_.Lights().Lights().empty() && !this->Scene_.Smoke().Emits())
+  const std::vector<EmitterCell>& cells = this->Scene_.Lights().Cells();
+  const bool shines = std::any_of(cells.begin(), cells.end(),
+    [this](const EmitterCell& cell)
+    {
+      return std::any_of(cell.Luminance.begin(), cell.Luminance.begin() + this->Field_.Bands,
+        [](double luminance) { return luminance > 0.0; });
+    });
+  if (!shines && !this->Scene_.Smoke().Emits())
   {
     throw Error("light field", "nothing emits light", "Add a sign, a lamp or a flame");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -64,6 +65,13 @@ BatchState::BatchState(std::size_t cells, std::size_t sides)
   , FluenceTally(cells)
   , IlluminanceTally(sides)
 {
+}
+
+void BatchState::Restart()
+{
+  std::fill(this->FluenceSum.begin(), this->FluenceSum.end(), 0.0F);
+  std::fill(this->IlluminanceSum.begin(), this->IlluminanceSum.end(), 0.0F);
+  this->Counted = 0;
 }
 
 struct LineSweep::Buffers
@@ -133,13 +141,27 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
   this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
 }
 
-float LineSweep::Outgoing(const BatchState& state, const Hit& hit) const
+float LineSweep::Outgoing(
+  const BatchState& state, const Hit& hit, const Vec3& direction) const
 {
   const std::size_t patch = this->Scene_.Patch(hit);
   const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
   const std::size_t side = 2 * patch + hit.Side;
-  return static_cast<float>(reflectance / glm::pi<double>()) *
+  float radiance = static_cast<float>(reflectance / glm::pi<double>()) *
     (this->DirectIlluminance_[side] + state.Illuminance[side]);
+  if (hit.Emitter && hit.Side == 0)
+  {
+    const EmitterSet& lights = this->Scene_.Lights();
+    const std::size_t cell = patch - this->Scene_.SurfacePatches();
+    if (lights.LeftToLines(cell))
+    {
+      const EmitterCell& emitter = lights.Cells()[cell];
+      const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
+      radiance += static_cast<float>(emitter.Luminance[this->Band_] *
+        (emitter.Exponent > 0.0 ? std::pow(cosine, emitter.Exponent) : 1.0));
+    }
+  }
+  return radiance;
 }
 
 void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
@@ -218,7 +240,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
     if (part < crossings)
     {
       arrive(buffers.Crossings[part].Arrive, radiance);
-      radiance = this->Outgoing(state, buffers.Crossings[part].Leave);
+      radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
     }
   }
   radiance = 0.0F;
@@ -234,7 +256,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
     if (part > 0)
     {
       arrive(buffers.Crossings[part - 1].Leave, radiance);
-      radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive);
+      radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive, direction);
     }
   }
   constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
@@ -247,7 +269,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
 }
 
 void LineSweep::Run(
-  BatchState& state, std::uint64_t key, bool count, const Progress& progress) const
+  BatchState& state, std::uint64_t key, const Progress& progress) const
 {
   // The tallies measure by how much the radiance differs from that of a reference field: lengths and
   // hits have known expectations, so this leaves the mean as it is and takes their scatter away. The
@@ -301,14 +323,11 @@ void LineSweep::Run(
         static_cast<float>(weight / area) * state.IlluminanceTally[side];
     }
   }
-  if (count)
-  {
-    ++state.Counted;
-    std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), state.Fluence.begin(),
-      state.FluenceSum.begin(), std::plus<>());
-    std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
-      state.Illuminance.begin(), state.IlluminanceSum.begin(), std::plus<>());
-  }
+  ++state.Counted;
+  std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), state.Fluence.begin(),
+    state.FluenceSum.begin(), std::plus<>());
+  std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
+    state.Illuminance.begin(), state.IlluminanceSum.begin(), std::plus<>());
 }
 
 double LineSweep::FirstSource() const
@@ -325,6 +344,11 @@ double LineSweep::FirstSource() const
   {
     power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
       this->Scene_.PatchArea(side / 2) * this->DirectIlluminance_[side];
+  }
+  const EmitterSet& lights = this->Scene_.Lights();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
   }
   return power;
 }

@@ -22,6 +22,8 @@ struct BatchState
   std::vector<float> FluenceTally, IlluminanceTally;
 
   BatchState(std::size_t cells, std::size_t sides);
+  /// Forgets the sums, not the latest estimate.
+  void Restart();
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -37,12 +39,13 @@ public:
   /// Lines that cross each cell about 1.5 times.
   std::size_t Lines() const { return this->Lines_; }
 
-  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance.
-  /// @param key   of the random numbers; must differ from sweep to sweep and batch to batch
-  /// @param count whether the new estimate is added to the sums
-  void Run(BatchState& state, std::uint64_t key, bool count, const Progress& progress) const;
+  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and is
+  /// added to the sums.
+  /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
+  void Run(BatchState& state, std::uint64_t key, const Progress& progress) const;
 
-  /// Power that surfaces and smoke send out again of direct light [lm].
+  /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out again of
+  /// direct light, and what flames and large lights emit.
   double FirstSource() const;
   /// Power that they send out again of the light of a state [lm].
   double LaterSource(const BatchState& state) const;
@@ -53,7 +56,8 @@ private:
   void TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
     const std::vector<float>& illuminanceReference, const Vec3& origin, const Vec3& direction,
     double length, BatchState& tallies, Buffers& buffers) const;
-  float Outgoing(const BatchState& state, const Hit& hit) const;
+  /// Radiance that leaves a side of a patch along a line.
+  float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
   const Scene& Scene_;
   const float* DirectFluence_;

@@ -12,6 +12,10 @@ namespace smokevis
 namespace
 {
 
+/// A light whose area is a larger share of the surface of the box around the scene is left to the
+/// random lines: one line in fifty meets it.
+constexpr double LargeLight = 0.02;
+
 void CheckDescription(const SceneDescription& description)
 {
   if (description.Bands != 1 && description.Bands != MaxBands)
@@ -94,7 +98,6 @@ Scene::Scene(SceneDescription description)
   CheckDescription(this->Description_);
   this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
   this->Smoke_ = Medium(std::move(this->Description_.Grids));
-  this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands);
   this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_);
 
   this->PatchReflectance_ = this->Description_.Surfaces.CellReflectance;
@@ -132,6 +135,10 @@ Scene::Scene(SceneDescription description)
   {
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
+  const Vec3 size = this->Upper_ - this->Lower_;
+  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  this->Lights_ = EmitterSet(
+    std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
 }
 
 } // namespace smokevis

@@ -16,6 +16,8 @@ namespace
 constexpr int MostProbes = 64;
 /// Farther than this optical depth from a sign, no one asks for it.
 constexpr double FarthestDepth = 12.0;
+/// Light fainter than this share of the brightest emitter need not be known to a share of itself.
+constexpr double FaintestShare = 1e-7;
 
 Vec3 SphereDirection(double first, double second)
 {
@@ -33,6 +35,12 @@ VeilProbes::VeilProbes(
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
   const std::vector<Sign>& signs = scene.Lights().Signs();
+  double brightest = 0.0;
+  for (const EmitterCell& cell : scene.Lights().Cells())
+  {
+    brightest = std::max(brightest, cell.Luminance[band]);
+  }
+  this->Floor_ = FaintestShare * brightest;
   const double size = glm::length(scene.Upper() - scene.Lower());
   for (int i = 0; i < MostProbes; ++i)
   {
@@ -125,7 +133,7 @@ double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
       }
       light[batch] = static_cast<float>(probe.Direct + sum / std::max(1, state.Counted));
     }
-    const double mean = Mean(light);
+    const double mean = std::max(0.0, Mean(light)) + this->Floor_;
     if (mean > 0.0)
     {
       const double relative = StandardError(light) / mean;

@@ -15,7 +15,7 @@ public:
   VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed);
 
   /// Root mean square, over the probes, of the standard error of the light along a probe over that
-  /// light, from the running means of the batches.
+  /// light (or over a floor where there is next to none), from the running means of the batches.
   double RelativeError(const std::vector<BatchState>& batches) const;
 
 private:
@@ -39,6 +39,8 @@ private:
     const Vec3& direction, double reach);
 
   std::vector<Probe> Probes_;
+  /// Added to the light that errors are compared with [cd/m2].
+  double Floor_ = 0.0;
 };
 
 } // namespace smokevis

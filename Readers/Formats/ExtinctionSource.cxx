@@ -1,15 +1,13 @@
 #include "ExtinctionSource.h"
 
-#include "TextFields.h"
+#include "Errors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <filesystem>
 #include <set>
 #include <sstream>
-#include <string_view>
-#include <tuple>
 
 namespace smokevis
 {
@@ -17,25 +15,56 @@ namespace smokevis
 namespace
 {
 
-// FDS's mass extinction coefficient of soot at 633 nm [m2/kg].
-constexpr double SootMassExtinction = 8700.0;
 // FDS computes OPTICAL DENSITY as K / 2.3.
-constexpr double ExtinctionPerOpticalDensity = 2.3;
+constexpr float ExtinctionPerOpticalDensity = 2.3F;
 // More negative than this [1/m] is no rounding of a transport scheme but not smoke at all.
 constexpr float MostNegative = -1e-3F;
-
-std::string UpperCase(std::string_view text)
-{
-  std::string upper(text);
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return upper;
-}
 
 double NearestOf(const std::vector<double>& times, double time)
 {
   return *std::min_element(times.begin(), times.end(),
     [time](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
+}
+
+// The offsets of a cell's eight nodes from its first one.
+std::array<std::size_t, 8> CornerOffsets(const std::array<int, 3>& nodes)
+{
+  const auto row = static_cast<std::size_t>(nodes[0]);
+  const std::size_t layer = row * static_cast<std::size_t>(nodes[1]);
+  return {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
+}
+
+// FDS averages .s3d over all eight cells of a node, solid ones counting as clear. This takes them
+// out again: times eight over the number of gas cells. Beyond the mesh's ends the cells are taken
+// to be like those within.
+void TakeSolidsOut(
+  const SmvMesh& mesh, const std::vector<unsigned char>& solid, std::vector<float>& nodes)
+{
+  if (solid.empty())
+  {
+    return;
+  }
+  const std::array<int, 3> cells{mesh.Cells(0), mesh.Cells(1), mesh.Cells(2)};
+  std::size_t node = 0;
+  for (int k = 0; k <= cells[2]; ++k)
+  {
+    for (int j = 0; j <= cells[1]; ++j)
+    {
+      for (int i = 0; i <= cells[0]; ++i, ++node)
+      {
+        int gas = 0;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const auto x = static_cast<std::size_t>(std::clamp(i - (corner & 1), 0, cells[0] - 1));
+          const auto y =
+            static_cast<std::size_t>(std::clamp(j - (corner >> 1 & 1), 0, cells[1] - 1));
+          const auto z = static_cast<std::size_t>(std::clamp(k - (corner >> 2), 0, cells[2] - 1));
+          gas += solid[(z * cells[1] + y) * cells[0] + x] == 0 ? 1 : 0;
+        }
+        nodes[node] *= gas == 0 ? 0.0F : 8.0F / static_cast<float>(gas);
+      }
+    }
+  }
 }
 
 } // namespace
@@ -44,97 +73,57 @@ double NearestOf(const std::vector<double>& times, double time)
 ExtinctionSource::ExtinctionSource(const SmvFile& index, double visibilityFactor)
     : index_(index), visibilityFactor_(visibilityFactor), terms_(index.Meshes.size())
 {
-  std::vector<Term> candidates = this->Candidates();
-  if (candidates.empty())
-  {
-    this->FailWithoutSmoke();
-  }
-  this->Choose(std::move(candidates));
+  this->Choose();
+  this->WarnOfGaps();
   this->CollectTimes();
   this->Describe();
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<ExtinctionSource::Term> ExtinctionSource::Candidates() const
+void ExtinctionSource::Choose()
 {
-  static constexpr std::array<std::pair<std::string_view, Quantity>, 4> labels{
-    {{"EXTINCTION COEFFICIENT", Quantity::Extinction},
-      {"OPTICAL DENSITY", Quantity::OpticalDensity}, {"VISIBILITY", Quantity::Visibility},
-      {"DENSITY", Quantity::Density}}};
-  // What the run itself calls smoke, with its Km.
-  std::map<std::string, double> massExtinction;
-  for (const SmvSmoke3D& smoke : index_.Smoke3D)
+  std::vector<SmokeCandidate> candidates = FindSmokeCandidates(index_);
+  if (candidates.empty())
   {
-    if (smoke.MassExtinction > 0.0)
-    {
-      massExtinction[UpperCase(smoke.Quantity.LongLabel)] = smoke.MassExtinction;
-    }
+    this->FailWithoutSmoke();
   }
-  std::vector<Term> candidates;
-  bool named = false;
-  for (const SmvSlice& slice : index_.Slices)
+  for (SmokeCandidate& candidate : candidates)
   {
-    const std::string label = UpperCase(slice.Quantity.LongLabel);
-    const auto found = std::find_if(labels.begin(), labels.end(),
-      [&label](const auto& known) { return label.ends_with(known.first); });
-    if (found == labels.end() || !slice.IsVolume())
+    std::vector<Term>& chosen = terms_[candidate.Mesh];
+    const bool first = chosen.empty() || chosen.back().Of.Species != candidate.Species;
+    if (!first && chosen.back().Of.WholeMesh)
     {
       continue;
     }
-    Term term;
-    term.Slice = &slice;
-    term.Kind = found->second;
-    term.Species =
-      std::string(Trim(std::string_view(label).substr(0, label.size() - found->first.size())));
-    if (term.Kind == Quantity::Density)
+    try
     {
-      const auto known = massExtinction.find(label);
-      const bool soot = term.Species.find("SOOT") != std::string::npos;
-      if (known == massExtinction.end() && !soot)
+      std::unique_ptr<FrameFile> file = OpenCandidate(index_, candidate);
+      if (!file->Damage().empty())
       {
-        continue; // the density of the gas or of a species that is not smoke
+        warnings_.push_back(file->Path() + ": " + file->Damage() + "; the other frames are used.");
       }
-      term.MassExtinction = known == massExtinction.end() ? SootMassExtinction : known->second;
+      chosen.push_back({std::move(candidate), std::move(file)});
     }
-    const SmvMesh& mesh = index_.Meshes[slice.Mesh];
-    term.WholeMesh =
-      slice.Range == IndexRange{0, mesh.Cells(0), 0, mesh.Cells(1), 0, mesh.Cells(2)};
-    named = named || !term.Species.empty();
-    candidates.push_back(std::move(term));
+    catch (const Error& error)
+    {
+      if (first)
+      {
+        throw;
+      }
+      warnings_.push_back(std::string("A part of the smoke cannot be completed: ") + error.what());
+    }
   }
-  if (named)
-  {
-    // A label without a species is the sum or one of the named ones: it must not count twice.
-    std::erase_if(candidates, [](const Term& term) { return term.Species.empty(); });
-  }
-  return candidates;
 }
 
 //------------------------------------------------------------------------------------------------
-void ExtinctionSource::Choose(std::vector<Term> candidates)
+void ExtinctionSource::WarnOfGaps()
 {
-  // Of one mesh and species: whole meshes first, then the better quantity, then cell-centred.
-  const auto rank = [](const Term& term)
-  { return std::make_tuple(!term.WholeMesh, term.Kind, !term.Slice->CellCentred); };
-  std::stable_sort(candidates.begin(), candidates.end(),
-    [&rank](const Term& a, const Term& b)
-    {
-      return std::tie(a.Slice->Mesh, a.Species) < std::tie(b.Slice->Mesh, b.Species) ||
-             (std::tie(a.Slice->Mesh, a.Species) == std::tie(b.Slice->Mesh, b.Species) &&
-               rank(a) < rank(b));
-    });
   std::set<std::string> species;
-  for (Term& term : candidates)
+  for (const std::vector<Term>& terms : terms_)
   {
-    species.insert(term.Species);
-    std::vector<Term>& chosen = terms_[term.Slice->Mesh];
-    const bool first = chosen.empty() || chosen.back().Species != term.Species;
-    // One slice over the whole mesh is enough; parts of the same kind complete each other.
-    const bool part = !first && !chosen.back().WholeMesh && rank(chosen.back()) == rank(term);
-    if (first || part)
+    for (const Term& term : terms)
     {
-      this->Open(term);
-      chosen.push_back(std::move(term));
+      species.insert(term.Of.Species);
     }
   }
   for (std::size_t mesh = 0; mesh < terms_.size(); ++mesh)
@@ -142,38 +131,20 @@ void ExtinctionSource::Choose(std::vector<Term> candidates)
     const std::string& name = index_.Meshes[mesh].Name;
     for (const std::string& one : species)
     {
-      const auto found = std::find_if(terms_[mesh].begin(), terms_[mesh].end(),
-        [&one](const Term& term) { return term.Species == one; });
-      if (found == terms_[mesh].end())
+      const auto last = std::find_if(terms_[mesh].rbegin(), terms_[mesh].rend(),
+        [&one](const Term& term) { return term.Of.Species == one; });
+      if (last == terms_[mesh].rend())
       {
-        warnings_.push_back("Mesh '" + name + "' has no 3-D slice of the smoke" +
+        warnings_.push_back("Mesh '" + name + "' has no 3-D output of the smoke" +
                             (one.empty() ? "" : " " + one) + ": it is taken as clear air there.");
       }
-      else if (!found->WholeMesh)
+      else if (!last->Of.WholeMesh)
       {
-        warnings_.push_back("The 3-D slices of " + found->Slice->Quantity.LongLabel +
+        warnings_.push_back("The 3-D slices of " + last->Of.Label.LongLabel +
                             " cover only a part of mesh '" + name +
                             "': its other cells are taken as clear air.");
       }
     }
-  }
-}
-
-//------------------------------------------------------------------------------------------------
-void ExtinctionSource::Open(Term& term)
-{
-  const SmvSlice& slice = *term.Slice;
-  term.File = std::make_unique<SliceFile>(index_.Resolve(slice.File), slice.CellCentred);
-  if (term.File->Range() != slice.Range)
-  {
-    throw Error(term.File->Path(),
-      "its index range is not the one that the index " + index_.Path + " gives",
-      "The two are of different runs: copy both from the same one");
-  }
-  if (!term.File->Damage().empty())
-  {
-    warnings_.push_back(
-      term.File->Path() + ": " + term.File->Damage() + "; the frames before it are used.");
   }
 }
 
@@ -194,29 +165,45 @@ void ExtinctionSource::CollectTimes()
 //------------------------------------------------------------------------------------------------
 void ExtinctionSource::Describe()
 {
+  bool visibility = false;
   std::ostringstream text;
   for (std::size_t mesh = 0; mesh < terms_.size(); ++mesh)
   {
-    for (const Term& term : terms_[mesh])
+    for (const auto& [of, file] : terms_[mesh])
     {
-      static constexpr std::array<const char*, 4> formulas{
-        "K", "K = 2.3 OD", "K = Km rho", "K = C/S"};
+      static constexpr std::array<const char*, 3> formats{"3-D slice", "8-bit 3-D smoke", "Plot3D"};
       text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name
-           << "': " << term.Slice->Quantity.LongLabel << " [" << term.Slice->Quantity.Unit << "], "
-           << (term.Slice->CellCentred ? "cell-centred" : "node-centred") << " 3-D slice "
-           << term.Slice->File << ", " << formulas[static_cast<std::size_t>(term.Kind)];
-      if (term.Kind == Quantity::Density)
+           << "': " << of.Label.LongLabel << " [" << of.Label.Unit << "], "
+           << (of.CellCentred ? "cell-centred " : "node-centred ")
+           << formats[static_cast<std::size_t>(of.Kind)];
+      if (of.Kind == SmokeCandidate::Format::Smoke3D)
       {
-        text << " with Km = " << term.MassExtinction << " m2/kg";
+        // Maybe the twin of the file that the index names.
+        text << " " << std::filesystem::path(file->Path()).filename().string();
       }
-      if (term.Kind == Quantity::Visibility)
+      else
       {
-        text << " with C = " << visibilityFactor_;
+        for (const auto& [time, name] : of.Files)
+        {
+          text << " " << name;
+        }
+      }
+      if (of.MassExtinction > 0.0)
+      {
+        text << ", Km = " << of.MassExtinction << " m2/kg";
+      }
+      else if (of.Quantity == SmokeQuantity::OpticalDensity)
+      {
+        text << ", K = 2.3 OD";
+      }
+      else if (of.Quantity == SmokeQuantity::Visibility)
+      {
+        text << ", K = C/S with C = " << visibilityFactor_;
+        visibility = true;
       }
     }
   }
   description_ = text.str();
-  const bool visibility = description_.find("K = C/S") != std::string::npos;
   if (visibility)
   {
     warnings_.push_back("The extinction comes from VISIBILITY, which FDS caps (at 30 m unless told "
@@ -251,7 +238,7 @@ void ExtinctionSource::FailWithoutSmoke() const
     list += (list.empty() ? "" : ", ") + one;
   }
   throw Error(index_.Path,
-    "the run wrote no 3-D slice of a smoke quantity. It wrote: " + (list.empty() ? "none" : list),
+    "the run wrote no smoke in 3-D. It wrote: " + (list.empty() ? "none" : list),
     "Add &SLCF XB=(the whole domain), QUANTITY='EXTINCTION COEFFICIENT', SPEC_ID='SOOT', "
     "CELL_CENTERED=.TRUE. / to the FDS input and run it again");
 }
@@ -272,7 +259,7 @@ MeshExtinction ExtinctionSource::Read(
   result.Values.assign(cells, 0.0F);
   result.Time = time;
   std::vector<unsigned char> covered;
-  std::vector<Term>& terms = terms_[mesh];
+  const std::vector<Term>& terms = terms_[mesh];
   for (std::size_t i = 0; i < terms.size(); ++i)
   {
     const std::vector<double>& times = terms[i].File->FrameTimes();
@@ -285,47 +272,56 @@ MeshExtinction ExtinctionSource::Read(
     {
       result.Time = frameTime;
     }
-    const bool sharesSpecies = (i > 0 && terms[i - 1].Species == terms[i].Species) ||
-                               (i + 1 < terms.size() && terms[i + 1].Species == terms[i].Species);
-    if (sharesSpecies && (i == 0 || terms[i - 1].Species != terms[i].Species))
+    const bool begins = i == 0 || terms[i - 1].Of.Species != terms[i].Of.Species;
+    const bool ends = i + 1 == terms.size() || terms[i + 1].Of.Species != terms[i].Of.Species;
+    if (begins && !ends)
     {
       covered.assign(cells, 0);
     }
-    this->Add(terms[i], frame, solid, sharesSpecies ? &covered : nullptr, result.Values);
+    this->Add(terms[i], frame, solid, begins && ends ? nullptr : &covered, result.Values);
   }
   return result;
 }
 
 //------------------------------------------------------------------------------------------------
-double ExtinctionSource::Convert(const Term& term, double value) const
+void ExtinctionSource::Convert(
+  const Term& term, const std::vector<unsigned char>& solid, std::vector<float>& values) const
 {
-  switch (term.Kind)
+  if (term.Of.Kind == SmokeCandidate::Format::Smoke3D)
   {
-  case Quantity::OpticalDensity:
-    return ExtinctionPerOpticalDensity * value;
-  case Quantity::Density:
-    return term.MassExtinction * value;
-  case Quantity::Visibility:
-    return visibilityFactor_ / value;
-  case Quantity::Extinction:
-    break;
+    TakeSolidsOut(index_.Meshes[term.Of.Mesh], solid, values);
   }
-  return value;
+  else if (term.Of.Quantity == SmokeQuantity::Visibility)
+  {
+    const auto factor = static_cast<float>(visibilityFactor_);
+    std::transform(
+      values.begin(), values.end(), values.begin(), [factor](float s) { return factor / s; });
+  }
+  else if (term.Of.Quantity != SmokeQuantity::Extinction)
+  {
+    const float factor = term.Of.Quantity == SmokeQuantity::Density
+                           ? static_cast<float>(term.Of.MassExtinction)
+                           : ExtinctionPerOpticalDensity;
+    std::transform(
+      values.begin(), values.end(), values.begin(), [factor](float v) { return factor * v; });
+  }
 }
 
 //------------------------------------------------------------------------------------------------
-void ExtinctionSource::Add(Term& term, std::size_t frame, const std::vector<unsigned char>& solid,
-  std::vector<unsigned char>* covered, std::vector<float>& sum) const
+void ExtinctionSource::Add(const Term& term, std::size_t frame,
+  const std::vector<unsigned char>& solid, std::vector<unsigned char>* covered,
+  std::vector<float>& sum) const
 {
   std::vector<float> values;
   term.File->ReadFrame(frame, values);
-  const SmvMesh& mesh = index_.Meshes[term.Slice->Mesh];
-  const IndexRange& r = term.Slice->Range;
+  this->Convert(term, solid, values);
+  const SmvMesh& mesh = index_.Meshes[term.Of.Mesh];
+  const IndexRange& r = term.Of.Range;
   const auto nx = static_cast<std::size_t>(mesh.Cells(0));
   const auto ny = static_cast<std::size_t>(mesh.Cells(1));
-  const auto rowLength = static_cast<std::size_t>(term.File->Dimensions()[0]);
-  const std::size_t layerLength = rowLength * term.File->Dimensions()[1];
-  const bool plain = term.Kind == Quantity::Extinction;
+  const std::array<std::size_t, 8> corners = CornerOffsets(term.File->Dimensions());
+  const std::size_t rowLength = corners[2];
+  const std::size_t layerLength = corners[4];
   for (int k = r[4]; k < r[5]; ++k)
   {
     for (int j = r[2]; j < r[3]; ++j)
@@ -340,32 +336,27 @@ void ExtinctionSource::Add(Term& term, std::size_t frame, const std::vector<unsi
           continue;
         }
         const float* value = row + (i - r[0]);
-        double extinction = 0.0;
-        if (term.Slice->CellCentred)
-        {
-          extinction = plain ? *value : this->Convert(term, *value);
-        }
-        else
+        float extinction = *value;
+        if (!term.Of.CellCentred)
         {
           // FDS gives a node the mean over its gas cells, and 0 without any. All eight nodes of a
           // gas cell have one: the cell itself.
-          for (const std::size_t corner :
-            {std::size_t{0}, std::size_t{1}, rowLength, rowLength + 1, layerLength, layerLength + 1,
-              layerLength + rowLength, layerLength + rowLength + 1})
+          extinction = 0.0F;
+          for (const std::size_t corner : corners)
           {
-            extinction += 0.125 * (plain ? value[corner] : this->Convert(term, value[corner]));
+            extinction += 0.125F * value[corner];
           }
         }
         if (!std::isfinite(extinction) || extinction < MostNegative)
         {
           std::ostringstream what;
-          what << term.Slice->Quantity.LongLabel << " gives the extinction coefficient "
-               << extinction << " 1/m in cell (" << i << ", " << j << ", " << k << ") of mesh '"
-               << mesh.Name << "' at " << term.File->FrameTimes()[frame] << " s";
+          what << term.Of.Label.LongLabel << " gives the extinction coefficient " << extinction
+               << " 1/m in cell (" << i << ", " << j << ", " << k << ") of mesh '" << mesh.Name
+               << "' at " << term.File->FrameTimes()[frame] << " s";
           throw Error(term.File->Path(), what.str(),
             "The run went numerically unstable or the file is damaged: read an earlier time");
         }
-        sum[cell] += static_cast<float>(std::max(extinction, 0.0));
+        sum[cell] += std::max(extinction, 0.0F);
         if (covered)
         {
           (*covered)[cell] = 1;

@@ -1,7 +1,8 @@
 // The extinction coefficient in every cell of every mesh, from the best of what a run wrote.
 #pragma once
 
-#include "SliceFile.h"
+#include "FrameFile.h"
+#include "SmokeCandidates.h"
 #include "SmvFile.h"
 
 #include <memory>
@@ -20,10 +21,11 @@ struct MeshExtinction
   double Time = 0.0;
 };
 
-/// Chooses, for each mesh and smoke species, the 3-D slices that give its extinction best, and
-/// reads them. In this order, slices over the whole mesh before slices over parts of it, and
-/// cell-centred before node-centred: EXTINCTION COEFFICIENT, OPTICAL DENSITY (K = 2.3 OD, as FDS
-/// divides by 2.3), DENSITY of a smoke species (K = Km rho), VISIBILITY (K = C/S). Species add.
+/// Chooses, for each mesh and smoke species, the files that give its extinction best (see
+/// FindSmokeCandidates()), and reads them. Where the best covers only a part of the mesh, the next
+/// ones complete it. Species add. The values become K [1/m] so: OPTICAL DENSITY by K = 2.3 OD, as
+/// FDS divides by 2.3; DENSITY by K = Km rho; VISIBILITY by K = C/S; and a cell gets the mean of
+/// its eight nodes.
 class ExtinctionSource
 {
 public:
@@ -50,33 +52,22 @@ public:
   MeshExtinction Read(int mesh, double time, const std::vector<unsigned char>& solid);
 
 private:
-  enum class Quantity
-  {
-    Extinction,
-    OpticalDensity,
-    Density,
-    Visibility
-  };
-  /// A slice that gives one species' extinction.
+  /// One chosen candidate, opened.
   struct Term
   {
-    const SmvSlice* Slice = nullptr;
-    Quantity Kind = Quantity::Extinction;
-    std::string Species;
-    double MassExtinction = 0.0;
-    bool WholeMesh = false;
-    std::unique_ptr<SliceFile> File;
+    SmokeCandidate Of;
+    std::unique_ptr<FrameFile> File;
   };
 
-  std::vector<Term> Candidates() const;
-  void Choose(std::vector<Term> candidates);
-  void Open(Term& term);
+  void Choose();
+  void WarnOfGaps();
   void CollectTimes();
   void Describe();
   [[noreturn]] void FailWithoutSmoke() const;
-  void Add(Term& term, std::size_t frame, const std::vector<unsigned char>& solid,
+  void Add(const Term& term, std::size_t frame, const std::vector<unsigned char>& solid,
     std::vector<unsigned char>* covered, std::vector<float>& sum) const;
-  double Convert(const Term& term, double value) const;
+  void Convert(
+    const Term& term, const std::vector<unsigned char>& solid, std::vector<float>& values) const;
 
   const SmvFile& index_;
   double visibilityFactor_;

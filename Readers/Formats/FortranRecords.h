@@ -98,7 +98,14 @@ public:
         "the record's length markers do not say " + std::to_string(bytes) + " bytes",
         "The file is damaged or does not belong to this index");
     }
-    this->ReadRaw(offset + 4, values.data(), bytes);
+    this->ReadInside(offset + 4, values);
+    return offset + bytes + MarkerBytes;
+  }
+
+  /// Reads a part of a record whose length was checked: @p offset is that of the first value.
+  template <class T> void ReadInside(std::uint64_t offset, std::span<T> values)
+  {
+    this->ReadRaw(offset, values.data(), values.size_bytes());
     if constexpr (sizeof(T) == 4)
     {
       if (swapped_)
@@ -109,7 +116,6 @@ public:
         }
       }
     }
-    return offset + bytes + MarkerBytes;
   }
 
   /// The record length that the marker at @p offset announces.

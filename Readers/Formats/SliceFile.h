@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FortranRecords.h"
+#include "FrameFile.h"
 #include "SmvFile.h"
 
 #include <array>
@@ -13,29 +14,26 @@ namespace smokevis
 
 /// An open slice file. Opening reads the header and the time of every frame, nothing else; a frame
 /// is read by seeking to it.
-class SliceFile
+class SliceFile : public FrameFile
 {
 public:
   /// Opens @p path, a node-centred (SLCF) or cell-centred (SLCC) slice. Throws Error when it is
   /// missing, empty, not a slice file, or holds no whole frame.
   SliceFile(const std::string& path, bool cellCentred);
 
-  const std::string& Path() const { return records_.Path(); }
+  const std::string& Path() const override { return records_.Path(); }
   const SmvQuantity& Quantity() const { return quantity_; }
   /// Node index range that the slice covers.
   const IndexRange& Range() const { return range_; }
 
   /// Number of values along x, y, z: cells of a cell-centred slice, nodes of a node-centred one.
-  const std::array<int, 3>& Dimensions() const { return dimensions_; }
+  const std::array<int, 3>& Dimensions() const override { return dimensions_; }
 
-  /// Times of the whole frames [s], as the file has them.
-  const std::vector<double>& FrameTimes() const { return times_; }
+  const std::vector<double>& FrameTimes() const override { return times_; }
 
-  /// What is wrong behind the last whole frame; empty when nothing is.
-  const std::string& Damage() const { return damage_; }
+  const std::string& Damage() const override { return damage_; }
 
-  /// Reads frame @p frame, x fastest, into @p values, which is resized to Dimensions().
-  void ReadFrame(std::size_t frame, std::vector<float>& values);
+  void ReadFrame(std::size_t frame, std::vector<float>& values) override;
 
 private:
   void IndexFrames();

@@ -163,14 +163,14 @@ TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
   EXPECT_THAT(this->Read(), ElementsAre(1.0F, 2.0F));
 }
 
-TEST_F(OneMeshRun, PrefersTheWholeMeshToABetterPart)
+TEST_F(OneMeshRun, CompletesABetterPartFromTheWholeMesh)
 {
   std::vector<float> stored(8, 9.0F);
   folder_.Write(
     "p.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1}, {{0.0F, stored}}));
   index_.Slice(true, 1, {0, 1, 0, 1, 0, 1}, "p.sf", "SOOT EXTINCTION COEFFICIENT");
   this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 1, 1});
-  EXPECT_THAT(this->Read(), ElementsAre(1.0, 1.0));
+  EXPECT_THAT(this->Read(), ElementsAre(9.0, 1.0));
 }
 
 TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
@@ -225,7 +225,7 @@ TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
   ExtinctionSource bare(this->Run(), C);
   ASSERT_EQ(bare.Warnings().size(), 1U);
-  EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D slice"));
+  EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D output"));
   EXPECT_THAT(bare.Read(1, 0.0, {}).Values, ElementsAre(0.0F));
   folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(8, 5.0F)}}));

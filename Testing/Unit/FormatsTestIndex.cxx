@@ -180,7 +180,7 @@ TEST(SmvFile, AnyCutOrFlippedByteIsReadOrRefused)
   test::Folder folder("fuzz");
   const std::string text =
     OneMesh().Slice(true, 1, {0, 4, 0, 3, 0, 2}, "a.sf", "SOOT DENSITY").Bytes();
-  for (std::size_t i = 0; i < text.size(); ++i)
+  for (std::size_t i = 0; i < text.size(); i += 7)
   {
     Problem(folder.Write("cut.smv", text.substr(0, i)));
     for (const char c : {'9', '-', '\n'})

@@ -197,7 +197,8 @@ private:
     std::string text;
     for (int i = 0; i < 6; ++i)
     {
-      text += " " + std::to_string(value);
+      text += ' ';
+      text += std::to_string(value);
     }
     return text;
   }
@@ -207,7 +208,8 @@ private:
     std::string text;
     for (const int value : values)
     {
-      text += " " + std::to_string(value);
+      text += ' ';
+      text += std::to_string(value);
     }
     return text;
   }

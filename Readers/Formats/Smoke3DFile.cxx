@@ -1,0 +1,205 @@
+#include "Smoke3DFile.h"
+
+#include "TextFields.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr std::uint32_t HeaderBytes = 8 * sizeof(int);
+constexpr int NewestVersion = 1;
+constexpr double GreatestByte = 254.0;
+constexpr unsigned char RunMark = 255;
+
+std::string TwinOrSelf(const std::string& path)
+{
+  std::error_code problem;
+  return std::filesystem::exists(path + "d", problem) ? path + "d" : path;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+Smoke3DFile::Smoke3DFile(
+  const std::string& path, const std::array<int, 3>& nodes, double firstCell, double massExtinction)
+    : records_(TwinOrSelf(path), HeaderBytes), nodes_(nodes), firstCell_(firstCell),
+      massExtinction_(massExtinction)
+{
+  holdsDensity_ = records_.Path() != path;
+  this->ReadHeader();
+  this->IndexFrames();
+  records_.Close();
+  if (holdsDensity_)
+  {
+    this->ReadGreatestDensities(path + ".sz");
+  }
+  if (times_.empty())
+  {
+    throw Error(records_.Path(),
+      "the 3-D smoke file holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
+      "Wait until the run has written one, or run FDS again");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+bool Smoke3DFile::HoldsDensity(const std::string& path)
+{
+  try
+  {
+    std::array<int, 8> header{};
+    FortranRecords(TwinOrSelf(path), HeaderBytes).Read(0, std::span<int>(header));
+    return TwinOrSelf(path) != path || header[1] == 1;
+  }
+  catch (const Error&)
+  {
+    return false; // opening it, if it comes to that, says what is wrong
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void Smoke3DFile::ReadHeader()
+{
+  // 1, VERSION, 0, IBAR, 0, JBAR, 0, KBAR
+  std::array<int, 8> header{};
+  records_.Read(0, std::span<int>(header));
+  if (header[1] < 0 || header[1] > NewestVersion)
+  {
+    throw Error(records_.At(0),
+      "3-D smoke of version " + std::to_string(header[1]) + " is not known here",
+      "Write a 3-D slice of EXTINCTION COEFFICIENT instead");
+  }
+  holdsDensity_ = holdsDensity_ || header[1] == 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (header[2 + 2 * axis] != 0 || header[3 + 2 * axis] != nodes_[axis] - 1)
+    {
+      throw Error(records_.At(0), "its index range is not that of the mesh in the index",
+        "The two are of different runs: copy both from the same one");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void Smoke3DFile::IndexFrames()
+{
+  const std::int64_t values = static_cast<std::int64_t>(nodes_[0]) * nodes_[1] * nodes_[2];
+  std::uint64_t offset = HeaderBytes + FortranRecords::MarkerBytes;
+  while (offset < records_.Size())
+  {
+    const std::string place =
+      "frame " + std::to_string(frames_.size() + 1) + " at byte " + std::to_string(offset);
+    std::array<float, 1> time{};
+    std::array<int, 2> sizes{};
+    const std::uint64_t sizesAt = offset + sizeof(float) + FortranRecords::MarkerBytes;
+    const std::uint64_t bytesAt = sizesAt + sizeof(sizes) + FortranRecords::MarkerBytes;
+    if (!records_.Holds(offset, sizeof(float)) || !records_.Holds(sizesAt, sizeof(sizes)))
+    {
+      damage_ = place + " is cut short";
+      return;
+    }
+    if (!records_.HasRecord(offset, sizeof(float)) || !records_.HasRecord(sizesAt, sizeof(sizes)))
+    {
+      damage_ = place + " is damaged";
+      return;
+    }
+    records_.Read(offset, std::span<float>(time));
+    records_.Read(sizesAt, std::span<int>(sizes));
+    if (!std::isfinite(time[0]) || sizes[0] != values || sizes[1] < 0)
+    {
+      damage_ = place + " is damaged";
+      return;
+    }
+    const auto bytes = static_cast<std::uint32_t>(sizes[1]);
+    if (!records_.HasRecord(bytesAt, bytes))
+    {
+      damage_ = place + (records_.Holds(bytesAt, bytes) ? " is damaged" : " is cut short");
+      return;
+    }
+    frames_.push_back({bytesAt, bytes, 0.0});
+    times_.push_back(time[0]);
+    offset = bytesAt + bytes + FortranRecords::MarkerBytes;
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void Smoke3DFile::ReadGreatestDensities(const std::string& path)
+{
+  std::ifstream stream(path);
+  std::string line;
+  // The first line is the version; then one line a frame.
+  if (!std::getline(stream, line))
+  {
+    throw Error(path,
+      "the text file with the greatest densities of " + records_.Path() + " cannot be read",
+      "Copy it beside the index, or run FDS again");
+  }
+  std::size_t frame = 0;
+  while (frame < frames_.size() && std::getline(stream, line))
+  {
+    const std::vector<double> numbers = SplitNumbers(line);
+    if (numbers.size() < 4 || !(numbers.back() >= 0.0) ||
+        std::abs(numbers[0] - times_[frame]) > 1e-4 * std::max(1.0, std::abs(times_[frame])))
+    {
+      break;
+    }
+    frames_[frame++].GreatestDensity = numbers.back();
+  }
+  if (frame < frames_.size())
+  {
+    damage_ = path + " has no greatest density for frame " + std::to_string(frame + 1);
+    frames_.resize(frame);
+    times_.resize(frame);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void Smoke3DFile::ReadFrame(std::size_t frame, std::vector<float>& values)
+{
+  const Frame& place = frames_[frame];
+  std::vector<unsigned char> coded(place.Bytes);
+  records_.Read(place.Offset, std::span<unsigned char>(coded));
+  records_.Close();
+
+  std::array<float, 256> extinction{};
+  for (std::size_t b = 0; b < extinction.size(); ++b)
+  {
+    // Full opacity, which no K gives, stands for anything that rounds to it.
+    const double part = std::min(static_cast<double>(b) / GreatestByte, 1.0);
+    const double opacity = std::min(part, 1.0 - 0.5 / GreatestByte);
+    extinction[b] =
+      static_cast<float>(holdsDensity_ ? massExtinction_ * part * place.GreatestDensity
+                                       : -std::log1p(-opacity) / firstCell_);
+  }
+  const std::size_t count = static_cast<std::size_t>(nodes_[0]) * nodes_[1] * nodes_[2];
+  values.resize(count);
+  std::size_t filled = 0;
+  for (std::size_t i = 0; i < coded.size();)
+  {
+    // 255, value, count; other bytes stand for themselves.
+    const bool run = coded[i] == RunMark;
+    const std::size_t needed = run ? 3 : 1;
+    const std::size_t length = run && i + 2 < coded.size() ? coded[i + 2] : 1;
+    if (i + needed > coded.size() || length > count - filled)
+    {
+      filled = count + 1;
+      break;
+    }
+    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(filled), length,
+      extinction[coded[run ? i + 1 : i]]);
+    filled += length;
+    i += needed;
+  }
+  if (filled != count)
+  {
+    throw Error(records_.At(place.Offset),
+      "the compressed frame does not unpack to " + std::to_string(count) + " values",
+      "The file is damaged: read another time, or run FDS again");
+  }
+}
+
+} // namespace smokevis
