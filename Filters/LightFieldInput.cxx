@@ -19,6 +19,16 @@ namespace
 
 const char* const Remedy = "Give the output of SmokeLightField, or a file that it was saved to";
 
+/// Set when the static objects of this library are destroyed, which is before Embree's are.
+bool processIsEnding = false;
+
+struct EndOfProcess
+{
+  ~EndOfProcess() { processIsEnding = true; }
+};
+
+const EndOfProcess endOfProcess;
+
 double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
 {
   double value = 0.0;
@@ -46,6 +56,15 @@ std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitte
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+LightFieldInput::~LightFieldInput()
+{
+  if (processIsEnding)
+  {
+    static_cast<void>(this->View_.release());
+  }
+}
 
 //------------------------------------------------------------------------------
 const View& LightFieldInput::Get(vtkDataObject* input)

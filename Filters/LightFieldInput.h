@@ -20,6 +20,13 @@ namespace smokevis
 class LightFieldInput
 {
 public:
+  LightFieldInput() = default;
+  /// Where the process is already ending the view is left to the system: Embree, which it needs to
+  /// take itself apart, may be gone by the time that ParaView deletes its last filters.
+  ~LightFieldInput();
+  LightFieldInput(const LightFieldInput&) = delete;
+  LightFieldInput& operator=(const LightFieldInput&) = delete;
+
   /// The view of a light field; built anew only where the input changed. Throws Error where the
   /// input is not the output of SmokeLightField.
   const View& Get(vtkDataObject* input);

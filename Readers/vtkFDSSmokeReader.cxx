@@ -33,6 +33,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -349,18 +350,18 @@ void vtkFDSSmokeReader::ReadSmoke(double time, vtkPartitionedDataSetCollection* 
     const smokevis::SmvMesh& mesh = own.Index->Meshes[i];
     const std::vector<unsigned char> solid =
       smokevis::SolidCells(mesh, smokevis::PresentObstructions(*own.Index, i, time, 0.0));
-    const smokevis::MeshExtinction extinction = own.Smoke->Read(i, time, solid);
-    // Meshes write their frames at the same time step, so times agree to rounding.
-    if (std::abs(extinction.Time - time) > 1e-4 * std::max(1.0, std::abs(time)))
-    {
-      vtkWarningMacro(<< "Mesh '" << mesh.Name << "' has no frame at " << time
-                      << " s: its frame at " << extinction.Time << " s is shown.");
-    }
-    const auto cells = static_cast<vtkIdType>(extinction.Values.size());
+    const auto cells = static_cast<vtkIdType>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2);
     vtkNew<vtkFloatArray> values;
     values->SetName("Extinction");
     values->SetNumberOfValues(cells);
-    std::copy(extinction.Values.begin(), extinction.Values.end(), values->GetPointer(0));
+    const double readTime = own.Smoke->Read(
+      i, time, solid, std::span<float>(values->GetPointer(0), static_cast<std::size_t>(cells)));
+    // Meshes write their frames at the same time step, so times agree to rounding.
+    if (std::abs(readTime - time) > 1e-4 * std::max(1.0, std::abs(time)))
+    {
+      vtkWarningMacro(<< "Mesh '" << mesh.Name << "' has no frame at " << time
+                      << " s: its frame at " << readTime << " s is shown.");
+    }
     vtkNew<vtkUnsignedCharArray> solids;
     solids->SetName("Solid");
     solids->SetNumberOfValues(cells);

@@ -250,14 +250,11 @@ double ExtinctionSource::NearestTime(double time) const
 }
 
 //------------------------------------------------------------------------------------------------
-MeshExtinction ExtinctionSource::Read(
-  int mesh, double time, const std::vector<unsigned char>& solid)
+double ExtinctionSource::Read(
+  int mesh, double time, const std::vector<unsigned char>& solid, std::span<float> values)
 {
-  const SmvMesh& grid = index_.Meshes[mesh];
-  const std::size_t cells = static_cast<std::size_t>(grid.Cells(0)) * grid.Cells(1) * grid.Cells(2);
-  MeshExtinction result;
-  result.Values.assign(cells, 0.0F);
-  result.Time = time;
+  std::fill(values.begin(), values.end(), 0.0F);
+  double readTime = time;
   std::vector<unsigned char> covered;
   const std::vector<Term>& terms = terms_[mesh];
   for (std::size_t i = 0; i < terms.size(); ++i)
@@ -268,19 +265,19 @@ MeshExtinction ExtinctionSource::Read(
     const auto last = std::find(times.rbegin(), times.rend(), frameTime);
     const std::size_t frame = static_cast<std::size_t>(times.rend() - last) - 1;
     // Where a mesh lacks the frame, the frame farthest from the wish is the one to tell of.
-    if (std::abs(frameTime - time) > std::abs(result.Time - time))
+    if (std::abs(frameTime - time) > std::abs(readTime - time))
     {
-      result.Time = frameTime;
+      readTime = frameTime;
     }
     const bool begins = i == 0 || terms[i - 1].Of.Species != terms[i].Of.Species;
     const bool ends = i + 1 == terms.size() || terms[i + 1].Of.Species != terms[i].Of.Species;
     if (begins && !ends)
     {
-      covered.assign(cells, 0);
+      covered.assign(values.size(), 0);
     }
-    this->Add(terms[i], frame, solid, begins && ends ? nullptr : &covered, result.Values);
+    this->Add(terms[i], frame, solid, begins && ends ? nullptr : &covered, values);
   }
-  return result;
+  return readTime;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -310,9 +307,9 @@ void ExtinctionSource::Convert(
 //------------------------------------------------------------------------------------------------
 void ExtinctionSource::Add(const Term& term, std::size_t frame,
   const std::vector<unsigned char>& solid, std::vector<unsigned char>* covered,
-  std::vector<float>& sum) const
+  std::span<float> sum)
 {
-  std::vector<float> values;
+  std::vector<float>& values = frame_;
   term.File->ReadFrame(frame, values);
   this->Convert(term, solid, values);
   const SmvMesh& mesh = index_.Meshes[term.Of.Mesh];

@@ -6,20 +6,12 @@
 #include "SmvFile.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace smokevis
 {
-
-/// Extinction of one mesh at one time.
-struct MeshExtinction
-{
-  /// K [1/m] a cell, x fastest; 0 in solids and where no file has data.
-  std::vector<float> Values;
-  /// Time of the frame that was read [s].
-  double Time = 0.0;
-};
 
 /// Chooses, for each mesh and smoke species, the files that give its extinction best (see
 /// FindSmokeCandidates()), and reads them. Where the best covers only a part of the mesh, the next
@@ -47,9 +39,12 @@ public:
   /// What is incomplete, e.g. frames cut short or parts of a mesh without data.
   const std::vector<std::string>& Warnings() const { return warnings_; }
 
-  /// Reads @p mesh at its frame nearest to @p time. @p solid marks the solid cells (see
-  /// SolidCells()), empty for none. Throws Error at a value that is no extinction coefficient.
-  MeshExtinction Read(int mesh, double time, const std::vector<unsigned char>& solid);
+  /// Reads @p mesh at its frame nearest to @p time into @p values, K [1/m] a cell, x fastest: 0 in
+  /// solids and where no file has data. @p solid marks the solid cells (see SolidCells()), empty
+  /// for none. Returns the time of the frame [s]. Throws Error at a value that is no extinction
+  /// coefficient.
+  double Read(
+    int mesh, double time, const std::vector<unsigned char>& solid, std::span<float> values);
 
 private:
   /// One chosen candidate, opened.
@@ -65,7 +60,7 @@ private:
   void Describe();
   [[noreturn]] void FailWithoutSmoke() const;
   void Add(const Term& term, std::size_t frame, const std::vector<unsigned char>& solid,
-    std::vector<unsigned char>* covered, std::vector<float>& sum) const;
+    std::vector<unsigned char>* covered, std::span<float> sum);
   void Convert(
     const Term& term, const std::vector<unsigned char>& solid, std::vector<float>& values) const;
 
@@ -74,6 +69,8 @@ private:
   std::string description_;
   std::vector<std::string> warnings_;
   std::vector<double> times_;
+  /// The last frame's values: kept, as fresh memory costs more than reading into it.
+  std::vector<float> frame_;
   /// The chosen terms of each mesh, those of one species side by side.
   std::vector<std::vector<Term>> terms_;
 };

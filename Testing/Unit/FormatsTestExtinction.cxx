@@ -59,7 +59,7 @@ protected:
   std::vector<float> Read()
   {
     ExtinctionSource source(this->Run(), C);
-    return source.Read(0, 0.0, {}).Values;
+    return test::ReadCells(source, 0, 0.0, {}).Values;
   }
 
   std::string Problem()
@@ -88,7 +88,7 @@ TEST_F(OneMeshRun, PrefersCellsOfExtinction)
   this->AddCells("d.sf", "SOOT DENSITY", 1, 1);
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 0.75);
   ExtinctionSource source(this->Run(), C);
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(0.5, 0.75));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(0.5, 0.75));
   EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
   EXPECT_THAT(source.Warnings(), IsEmpty());
   EXPECT_THAT(source.Description(), HasSubstr("k.sf"));
@@ -129,7 +129,8 @@ TEST_F(OneMeshRun, TakesTheMostSmokeThatACappedVisibilityAllows)
 {
   this->AddCells("v.sf", "SOOT VISIBILITY", 3, 30);
   ExtinctionSource source(this->Run(), C);
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(1.0F, testing::FloatEq(0.1F)));
+  EXPECT_THAT(
+    test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(1.0F, testing::FloatEq(0.1F)));
   ASSERT_EQ(source.Warnings().size(), 1U);
   EXPECT_THAT(source.Warnings()[0], HasSubstr("caps"));
 }
@@ -156,7 +157,7 @@ TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
   part("a.sf", 1, 2.0F);
   part("a again.sf", 1, 3.0F); // the same cell once more must not add
   ExtinctionSource one(this->Run(), C);
-  EXPECT_THAT(one.Read(0, 0.0, {}).Values, ElementsAre(0.0F, 2.0F));
+  EXPECT_THAT(test::ReadCells(one, 0, 0.0, {}).Values, ElementsAre(0.0F, 2.0F));
   ASSERT_EQ(one.Warnings().size(), 1U);
   EXPECT_THAT(one.Warnings()[0], HasSubstr("only a part of mesh 'm'"));
   part("b.sf", 0, 1.0F);
@@ -177,7 +178,7 @@ TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
 {
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", std::numeric_limits<float>::quiet_NaN(), 2);
   ExtinctionSource source(this->Run(), C);
-  EXPECT_THAT(source.Read(0, 0.0, {1, 0}).Values, ElementsAre(0.0F, 2.0F));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {1, 0}).Values, ElementsAre(0.0F, 2.0F));
 }
 
 TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
@@ -216,7 +217,7 @@ TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
   EXPECT_THAT(source.Times(), ElementsAre(0.0));
   ASSERT_EQ(source.Warnings().size(), 1U);
   EXPECT_THAT(source.Warnings()[0], HasSubstr("frame 2"));
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(1.0F, 2.0F));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(1.0F, 2.0F));
 }
 
 TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
@@ -226,13 +227,13 @@ TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
   ExtinctionSource bare(this->Run(), C);
   ASSERT_EQ(bare.Warnings().size(), 1U);
   EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D output"));
-  EXPECT_THAT(bare.Read(1, 0.0, {}).Values, ElementsAre(0.0F));
+  EXPECT_THAT(test::ReadCells(bare, 1, 0.0, {}, 1).Values, ElementsAre(0.0F));
   folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(8, 5.0F)}}));
   index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "o.sf", "SOOT EXTINCTION COEFFICIENT");
   ExtinctionSource both(this->Run(), C);
-  EXPECT_EQ(both.Read(0, 1.0, {}).Time, 1.0);
-  EXPECT_EQ(both.Read(1, 1.0, {}).Time, 0.0);
+  EXPECT_EQ(test::ReadCells(both, 0, 1.0, {}).Time, 1.0);
+  EXPECT_EQ(test::ReadCells(both, 1, 1.0, {}, 1).Time, 0.0);
 }
 
 TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
@@ -244,7 +245,7 @@ TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "r.sf", "SOOT EXTINCTION COEFFICIENT");
   ExtinctionSource source(this->Run(), C);
   EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(2.0F, 2.0F));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(2.0F, 2.0F));
 }
 
 } // namespace smokevis

@@ -1,6 +1,8 @@
 // A small FDS run, written by a test into a folder of its own.
 #pragma once
 
+#include "ExtinctionSource.h"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -78,6 +80,28 @@ private:
   bool swapped_;
   std::string bytes_;
 };
+
+/// Extinction of a mesh of two cells (or another number).
+struct Cells
+{
+  std::vector<float> Values;
+  double Time = 0.0;
+};
+
+inline Cells ReadCells(ExtinctionSource&& source, int mesh, double time,
+  const std::vector<unsigned char>& solid, std::size_t count = 2)
+{
+  Cells cells;
+  cells.Values.resize(count, -1.0F);
+  cells.Time = source.Read(mesh, time, solid, cells.Values);
+  return cells;
+}
+
+inline Cells ReadCells(ExtinctionSource& source, int mesh, double time,
+  const std::vector<unsigned char>& solid, std::size_t count = 2)
+{
+  return ReadCells(std::move(source), mesh, time, solid, count);
+}
 
 /// A slice file: labels, index range, and for each frame a time and its values as stored.
 inline std::string SliceBytes(const std::string& label, const std::vector<int>& range,

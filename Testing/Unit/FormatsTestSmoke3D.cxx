@@ -245,7 +245,7 @@ TEST_F(WithoutSlices, TakesTheSmokeOfTheNodes)
   this->AddSmoke(1);
   ExtinctionSource source(this->Run(), 3.0);
   EXPECT_THAT(source.Description(), HasSubstr("8-bit 3-D smoke a.s3d"));
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, Each(FloatNear(0.87F, 1e-5F)));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, Each(FloatNear(0.87F, 1e-5F)));
 }
 
 TEST_F(WithoutSlices, TakesSolidsOutOfTheNodes)
@@ -253,7 +253,7 @@ TEST_F(WithoutSlices, TakesSolidsOutOfTheNodes)
   this->AddSmoke(1);
   ExtinctionSource source(this->Run(), 3.0);
   // The first cell is solid: of the second one's nodes, four lie halfway in it and lack half.
-  EXPECT_THAT(source.Read(0, 0.0, {1, 0}).Values,
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {1, 0}).Values,
     ElementsAre(0.0F, FloatNear(0.5F * 0.87F + 0.5F * 2 * 0.87F, 1e-5F)));
 }
 
@@ -266,7 +266,7 @@ TEST_F(WithoutSlices, PrefersDensityToPlot3DAndPlot3DToOpacity)
   ExtinctionSource source(this->Run(), 3.0);
   EXPECT_THAT(source.Description(), HasSubstr("Plot3D a.q"));
   EXPECT_THAT(source.Times(), ElementsAre(7.5));
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, Each(0.25F));
+  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, Each(0.25F));
 }
 
 TEST_F(WithoutSlices, CompletesAPartialSliceFromTheSmoke)
@@ -276,12 +276,13 @@ TEST_F(WithoutSlices, CompletesAPartialSliceFromTheSmoke)
                           {{0.0F, std::vector<float>(8, 2.0F)}}));
   index_.Slice(true, 1, {0, 1, 0, 1, 0, 1}, "p.sf", "SOOT EXTINCTION COEFFICIENT");
   ExtinctionSource source(this->Run(), 3.0);
-  EXPECT_THAT(source.Read(0, 0.0, {}).Values, ElementsAre(2.0F, FloatNear(0.87F, 1e-5F)));
+  EXPECT_THAT(
+    test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(2.0F, FloatNear(0.87F, 1e-5F)));
   EXPECT_TRUE(source.Warnings().empty());
   // Without the file the part alone is used, and that is said.
   std::filesystem::remove(folder_.Path("a.s3d"));
   ExtinctionSource part(this->Run(), 3.0);
-  EXPECT_THAT(part.Read(0, 0.0, {}).Values, ElementsAre(2.0F, 0.0F));
+  EXPECT_THAT(test::ReadCells(part, 0, 0.0, {}).Values, ElementsAre(2.0F, 0.0F));
   ASSERT_EQ(part.Warnings().size(), 2U);
   EXPECT_THAT(part.Warnings()[0], HasSubstr("a.s3d"));
   EXPECT_THAT(part.Warnings()[1], HasSubstr("only a part"));
@@ -293,7 +294,7 @@ TEST_F(WithoutSlices, AnUnnamedSliceIsNotAddedToNamedSmoke)
   folder_.Write("k.sf", test::SliceBytes("EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(12, 2.0F)}}));
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "k.sf", "EXTINCTION COEFFICIENT");
-  EXPECT_THAT(ExtinctionSource(this->Run(), 3.0).Read(0, 0.0, {}).Values, Each(2.0F));
+  EXPECT_THAT(test::ReadCells(ExtinctionSource(this->Run(), 3.0), 0, 0.0, {}).Values, Each(2.0F));
 }
 
 } // namespace smokevis
