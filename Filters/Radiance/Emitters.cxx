@@ -101,6 +101,16 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::arra
 
 } // namespace
 
+double LightGroup::Distance(const Vec3& point) const
+{
+  const Vec3 u = this->Corners[1] - this->Corners[0];
+  const Vec3 v = this->Corners[3] - this->Corners[0];
+  const Vec3 from = point - this->Corners[0];
+  const double s = std::clamp(glm::dot(from, u) / glm::dot(u, u), 0.0, 1.0);
+  const double t = std::clamp(glm::dot(from, v) / glm::dot(v, v), 0.0, 1.0);
+  return glm::length(from - s * u - t * v);
+}
+
 EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)
   : Bands_(bands)
   , Cells_(std::move(cells))
@@ -323,6 +333,22 @@ void EmitterSet::FillGroup(
       all.Radius = std::max(all.Radius, glm::length(corner - all.Centre));
     }
   }
+  // The rectangle around the group, along the first leaf's first edge.
+  const Vec3 u = glm::normalize(leaves[begin].Corners[1] - leaves[begin].Corners[0]);
+  const Vec3 v = glm::cross(all.Normal, u);
+  glm::dvec2 least(1e300);
+  glm::dvec2 most(-1e300);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    for (const Vec3& corner : leaves[i].Corners)
+    {
+      const glm::dvec2 at(glm::dot(corner - all.Centre, u), glm::dot(corner - all.Centre, v));
+      least = glm::min(least, at);
+      most = glm::max(most, at);
+    }
+  }
+  all.Corners = { all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
+    all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v };
   const Vec3 extent = high - low;
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2)
                                         : (extent.y >= extent.z ? 1 : 2);

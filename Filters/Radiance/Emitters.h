@@ -50,8 +50,11 @@ struct LightGroup
   double Area = 0.0;
   /// First of two children, which follow each other; -1: a leaf.
   int FirstChild = -1;
-  /// A leaf's quadrilateral; a triangle repeats its last corner.
+  /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the group.
   std::array<Vec3, 4> Corners{};
+
+  /// Distance of a point from the plane rectangle around the group [m].
+  double Distance(const Vec3& point) const;
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells of
