@@ -16,6 +16,7 @@ namespace
 
 constexpr double CrossingsPerSweep = 1.5;
 constexpr std::size_t FewestLines = 512;
+constexpr double MostLinesForPatches = 20000.0;
 
 /// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface with
 /// a cosine-distributed direction.
@@ -129,14 +130,20 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
   const double crossings = boundary / box;
   double lines = crossings > 0.0 ? CrossingsPerSweep * cells / crossings : 0.0;
   double area = 0.0;
+  std::size_t reflecting = 0;
   for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
   {
-    area += scene.PatchArea(patch);
+    if (scene.PatchReflectance(patch)[band] > 0.0)
+    {
+      area += scene.PatchArea(patch);
+      ++reflecting;
+    }
   }
-  const double hits = 2.0 * area / box;
-  if (hits > 0.0)
+  if (area > 0.0)
   {
-    lines = std::max(lines, CrossingsPerSweep * scene.Patches() / hits);
+    // Patches that are tiny against the scene are not worth a flood of lines.
+    const double wanted = CrossingsPerSweep * static_cast<double>(reflecting) * box / (2.0 * area);
+    lines = std::max(lines, std::min(wanted, MostLinesForPatches));
   }
   this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
 }
