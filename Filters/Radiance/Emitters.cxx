@@ -200,10 +200,10 @@ void EmitterSet::FindSigns()
   }
 }
 
-std::vector<int> EmitterSet::JoinCells() const
+std::vector<int> EmitterSet::JoinCells(bool samePlane) const
 {
-  // Cells join when they share what a light must have in common and, for lamps, a corner: a ceiling's
-  // lamps stay apart, the pieces of a luminous panel do not.
+  // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a luminous
+  // panel do not.
   using Key = std::array<double, 8>;
   std::map<Key, int> lights;
   std::vector<int> parent;
@@ -231,8 +231,9 @@ std::vector<int> EmitterSet::JoinCells() const
       const auto round = [](double value, double step) { return std::round(value / step) * step; };
       const double grid = 1e-4 * std::sqrt(this->Areas_[i]);
       const double step = std::exp2(std::ceil(std::log2(grid)));
-      const Key key = { static_cast<double>(cell.SignId), cell.Exponent, round(n.x, 1e-5),
-        round(n.y, 1e-5), round(n.z, 1e-5), round(place.x, step), round(place.y, step),
+      const Key key = { static_cast<double>(cell.SignId), samePlane ? cell.Exponent : 0.0,
+        samePlane ? round(n.x, 1e-5) : 0.0, samePlane ? round(n.y, 1e-5) : 0.0,
+        samePlane ? round(n.z, 1e-5) : 0.0, round(place.x, step), round(place.y, step),
         round(place.z, step) };
       const auto [known, fresh] = lights.try_emplace(key, lightOf[i]);
       if (!fresh)
@@ -259,7 +260,8 @@ std::vector<int> EmitterSet::JoinCells() const
 
 void EmitterSet::BuildLights(double largestLight)
 {
-  const std::vector<int> lightOf = this->JoinCells();
+  const std::vector<int> lightOf = this->JoinCells(true);
+  const std::vector<int> bodyOf = this->JoinCells(false);
   std::map<int, std::vector<LightGroup>> lights;
   std::map<int, double> areas;
   this->LeftToLines_.assign(this->Cells_.size(), false);
@@ -269,7 +271,15 @@ void EmitterSet::BuildLights(double largestLight)
     {
       continue;
     }
-    areas[lightOf[i]] += this->Areas_[i];
+    areas[bodyOf[i]] += this->Areas_[i];
+  }
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    this->LeftToLines_[i] = lightOf[i] >= 0 && areas[bodyOf[i]] > largestLight;
+    if (lightOf[i] < 0 || this->LeftToLines_[i])
+    {
+      continue;
+    }
     const EmitterCell& cell = this->Cells_[i];
     const std::vector<Vec3>& vertices = cell.Vertices;
     for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
@@ -279,16 +289,8 @@ void EmitterSet::BuildLights(double largestLight)
         MakeLeaf(cell, this->Normals_[i], { vertices[0], vertices[v], vertices[v + 1], last }));
     }
   }
-  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
-  {
-    this->LeftToLines_[i] = lightOf[i] >= 0 && areas[lightOf[i]] > largestLight;
-  }
   for (auto& [light, leaves] : lights)
   {
-    if (areas[light] > largestLight)
-    {
-      continue;
-    }
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());

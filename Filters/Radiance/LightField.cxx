@@ -57,7 +57,8 @@ private:
   void SolveMultiple(int band);
   void Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
     std::vector<BatchState>& batches) const;
-  int Settle(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(
+    const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
   void CheckStop() const
@@ -239,7 +240,7 @@ void Solver::Balance(const LineSweep& sweep, int sweeps, std::vector<double>& be
 }
 
 int Solver::Settle(
-  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
+  const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
 {
   std::vector<double> before(batches.size(), 0.0);
   BlockMeans earlier;
@@ -260,7 +261,7 @@ int Solver::Settle(
       }
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
-    BlockMeans now(batches);
+    BlockMeans now(batches, this->Field_, band);
     if (first > 0 &&
       now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
     {
@@ -314,7 +315,7 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  int done = this->Settle(sweep, batches, key);
+  int done = this->Settle(sweep, band, batches, key);
   const int settling = done - batches.front().Counted;
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
   double error = probes.RelativeError(batches);
