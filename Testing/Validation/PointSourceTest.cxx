@@ -88,7 +88,8 @@ TEST(PointSource, AirlightOfSingleScattering)
       { -20, -3, -3 }, { 20, 20, 3 }, { 40, 23, 6 }, 1.0) };
     const Vec3 at(distance, 0, 0);
     description.Emitters = PointSource(at, 0.002, 1.0);
-    const Solved solved(description);
+    // The second order is nearly nothing: half of it would do.
+    const Solved solved(description, 0.5);
     for (std::size_t row = 0; row < table.Rows(); ++row)
     {
       const double angle = table.Number(row, "gamma_deg");
