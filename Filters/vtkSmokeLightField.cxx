@@ -18,6 +18,9 @@
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
 
+#include <tbb/info.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -268,7 +271,8 @@ void vtkSmokeLightField::Solve(
   smokevis::LightFieldOptions solver;
   solver.Tolerance = this->Tolerance;
   solver.Seed = static_cast<std::uint64_t>(this->Seed);
-  solver.Threads = this->Threads;
+  // TBB warns on the console about threads that the machine does not have.
+  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
   smokevis::PipelineProgress progress(this, 0.02, 0.98);
   smokevis::LightField field = smokevis::SolveLightField(scene, solver, progress);
   report.insert(report.end(), field.Report.begin(), field.Report.end());

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace smokevis
 {
@@ -27,15 +26,14 @@ constexpr double PathRatio = 0.1;
 constexpr double LeafRatio = 0.7;
 constexpr int LeafSplits = 4;
 constexpr double CutRatio = 0.02;
-/// Places on a light that are tried for whether they are hidden: at first, and where some are.
-constexpr int FewTargets = 4;
-constexpr int ManyTargets = 32;
+/// Shadow rays along one edge of a light that is partly hidden.
+constexpr int ShadowEdge = 6;
 /// A box or triangle as large as this share of its distance to the light is split.
 constexpr double BoxRatio = 0.5;
 constexpr int BoxSplits = 3;
 constexpr double TriangleRatio = 0.5;
 constexpr double TrianglePointRatio = 0.1;
-constexpr int TriangleSplits = 3;
+constexpr int TriangleSplits = 4;
 
 /// Gauss-Legendre nodes and weights on (0, 1).
 constexpr std::array<double, 2> Nodes2 = { 0.21132486540518712, 0.78867513459481288 };
@@ -94,46 +92,34 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
 
 } // namespace
 
-void DirectLight::TryTargets(
-  const LightGroup& group, const Vec3& point, int count, Tally& tally) const
-{
-  const Geometry& shapes = this->Scene_.Shapes();
-  if (group.FirstChild >= 0 && count >= 2)
-  {
-    const auto& groups = this->Scene_.Lights().Groups();
-    this->TryTargets(groups[group.FirstChild], point, count / 2, tally);
-    this->TryTargets(groups[group.FirstChild + 1], point, count / 2, tally);
-    return;
-  }
-  if (group.FirstChild >= 0 || count == 1)
-  {
-    ++tally.Tried;
-    tally.Visible += shapes.Visible(point, group.Centre) ? 1 : 0;
-    return;
-  }
-  const int edge = static_cast<int>(std::ceil(std::sqrt(count)));
-  for (int i = 0; i < edge; ++i)
-  {
-    for (int j = 0; j < edge; ++j)
-    {
-      ++tally.Tried;
-      const Vec3 target = Bilinear(group.Corners, (i + 0.5) / edge, (j + 0.5) / edge);
-      tally.Visible += shapes.Visible(point, target) ? 1 : 0;
-    }
-  }
-}
-
 double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
 {
-  Tally tally;
-  this->TryTargets(group, point, FewTargets, tally);
-  if (tally.Visible > 0 && tally.Visible < tally.Tried)
+  const Geometry& shapes = this->Scene_.Shapes();
+  const auto visible = [&](double u, double v)
+  { return shapes.Visible(point, Bilinear(group.Corners, u, v)) ? 1 : 0; };
+  // The centre and the corners: a shadow's edge mostly parts them.
+  constexpr double inset = 0.04;
+  int seen = visible(0.5, 0.5);
+  for (const double u : { inset, 1.0 - inset })
   {
-    // Partly hidden: how much is worth a closer look.
-    tally = {};
-    this->TryTargets(group, point, ManyTargets, tally);
+    for (const double v : { inset, 1.0 - inset })
+    {
+      seen += visible(u, v);
+    }
   }
-  return static_cast<double>(tally.Visible) / tally.Tried;
+  if (seen == 0 || seen == 5)
+  {
+    return seen == 0 ? 0.0 : 1.0;
+  }
+  seen = 0;
+  for (int i = 0; i < ShadowEdge; ++i)
+  {
+    for (int j = 0; j < ShadowEdge; ++j)
+    {
+      seen += visible((i + 0.5) / ShadowEdge, (j + 0.5) / ShadowEdge);
+    }
+  }
+  return static_cast<double>(seen) / (ShadowEdge * ShadowEdge);
 }
 
 DirectLight::Path DirectLight::SamplePath(
@@ -223,26 +209,33 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
       SolidAngle(point, corners[0], corners[2], corners[3]);
   // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
   const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
-  const int order = few ? 2 : 3;
+  // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
+  const bool parted = !few && path.Visible < 1.0;
+  const int order = few ? 2 : parted ? ShadowEdge : 3;
   double weights = 0.0;
   Spectrum weighted{};
   for (int i = 0; i < order; ++i)
   {
     for (int j = 0; j < order; ++j)
     {
-      const double u = few ? Nodes2[i] : Nodes3[i];
-      const double v = few ? Nodes2[j] : Nodes3[j];
-      const Vec3 to = Bilinear(corners, u, v) - point;
+      const double u = few ? Nodes2[i] : parted ? (i + 0.5) / ShadowEdge : Nodes3[i];
+      const double v = few ? Nodes2[j] : parted ? (j + 0.5) / ShadowEdge : Nodes3[j];
+      const Vec3 target = Bilinear(corners, u, v);
+      const Vec3 to = target - point;
       const double square = glm::dot(to, to);
       const double distance = std::sqrt(square);
       const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
       double weight = BilinearArea(corners, u, v) * cosine / square *
-        (few ? 1.0 : Weights3[i] * Weights3[j]);
+        (few || parted ? 1.0 : Weights3[i] * Weights3[j]);
       if (receiver.Normal)
       {
         weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
       }
       weights += weight;
+      if (parted && !this->Scene_.Shapes().Visible(point, target))
+      {
+        continue;
+      }
       if (leaf.Exponent > 0.0)
       {
         weight *= std::pow(cosine, leaf.Exponent);
@@ -262,7 +255,8 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
   }
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    sum[band] += path.Visible * leaf.Intensity[band] / leaf.Area * closed * weighted[band] / weights;
+    sum[band] += (parted ? 1.0 : path.Visible) * leaf.Intensity[band] / leaf.Area * closed *
+      weighted[band] / weights;
   }
 }
 
@@ -329,12 +323,12 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
 }
 
 Spectrum DirectLight::Illuminance(
-  std::size_t light, const Vec3& point, const Vec3& normal) const
+  std::size_t light, const Vec3& point, const Vec3& normal, bool clear) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
   this->Gather(
-    lights.Groups()[lights.Lights()[light]], { point, normal, false }, nullptr, LeafSplits, sum);
+    lights.Groups()[lights.Lights()[light]], { point, normal, clear }, nullptr, LeafSplits, sum);
   return sum;
 }
 
@@ -345,7 +339,7 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  const double distance = std::max(0.0, glm::length(centre - root.Centre) - root.Radius);
+  const double distance = root.Distance(centre);
   const bool splits = std::max({ size.x, size.y, size.z }) > BoxRatio * distance;
   return this->BoxFluence(light, centre, size, BoxSplits, splits && this->Clear(light, cell));
 }
@@ -357,7 +351,7 @@ Spectrum DirectLight::BoxFluence(
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
-  const double distance = std::max(0.0, toCentre - root.Radius);
+  const double distance = root.Distance(centre);
   const double edge = std::max({ size.x, size.y, size.z });
   if (splits > 0 && edge > BoxRatio * distance)
   {
@@ -455,7 +449,7 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     size = std::max(size, glm::length(corner - centre));
   }
-  const double distance = std::max(0.0, glm::length(centre - root.Centre) - root.Radius);
+  const double distance = root.Distance(centre);
   if (glm::dot(centre - root.Centre, root.Normal) + size < -root.Radius)
   {
     return;
@@ -485,42 +479,45 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);
   }
-  std::array<Spectrum, 2> mean{};
-  bool uneven = false;
+  bool clear = false;
+  if (count > 1)
+  {
+    double least = 1.0;
+    double most = 0.0;
+    for (int i = 0; i < count; ++i)
+    {
+      const double share = this->VisibleShare(root, points[i]);
+      least = std::min(least, share);
+      most = std::max(most, share);
+    }
+    if (most == 0.0)
+    {
+      return;
+    }
+    clear = least == 1.0;
+    if (!clear && splits > 0)
+    {
+      // The edge of a shadow runs through the triangle.
+      splitAll();
+      return;
+    }
+  }
   for (int face = 0; face < 2; ++face)
   {
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0.0;
     for (int i = 0; i < count; ++i)
     {
       // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
       const double side = glm::dot(root.Centre - points[i], normal);
       if ((face == 0 ? side : -side) <= -root.Radius)
       {
-        least = 0.0;
         continue;
       }
-      const Spectrum value = this->Illuminance(light, points[i], face == 0 ? normal : -normal);
-      least = std::min(least, value[0]);
-      most = std::max(most, value[0]);
+      const Spectrum value =
+        this->Illuminance(light, points[i], face == 0 ? normal : -normal, clear);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        mean[face][band] += value[band] / count;
+        sum[face][band] += weight / count * value[band];
       }
-    }
-    uneven = uneven || least < 0.5 * most;
-  }
-  if (uneven && splits > 0)
-  {
-    // The edge of a shadow runs through the triangle.
-    splitAll();
-    return;
-  }
-  for (int face = 0; face < 2; ++face)
-  {
-    for (int band = 0; band < this->Scene_.Bands(); ++band)
-    {
-      sum[face][band] += weight * mean[face][band];
     }
   }
 }

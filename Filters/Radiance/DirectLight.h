@@ -27,7 +27,8 @@ public:
   /// Whether the corners and the centre of a smoke cell all see the whole of a light.
   bool Clear(std::size_t light, std::int64_t cell) const;
   /// Illuminance at a point of a surface with a unit normal [lx].
-  Spectrum Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const;
+  Spectrum Illuminance(
+    std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
   /// Mean fluence over a smoke cell [lx].
   Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
   /// Mean illuminance of a triangle's front and back [lx].
@@ -52,15 +53,7 @@ private:
     double Visible;
   };
 
-  /// Places on a light that were tried, and how many of them are not hidden.
-  struct Tally
-  {
-    int Tried = 0;
-    int Visible = 0;
-  };
-
-  void TryTargets(
-    const LightGroup& group, const Vec3& point, int count, Tally& tally) const;
+  /// Share of a group that is not hidden from a point.
   double VisibleShare(const LightGroup& group, const Vec3& point) const;
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,

@@ -101,6 +101,16 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::arra
 
 } // namespace
 
+double LightGroup::Distance(const Vec3& point) const
+{
+  const Vec3 u = this->Corners[1] - this->Corners[0];
+  const Vec3 v = this->Corners[3] - this->Corners[0];
+  const Vec3 from = point - this->Corners[0];
+  const double s = std::clamp(glm::dot(from, u) / glm::dot(u, u), 0.0, 1.0);
+  const double t = std::clamp(glm::dot(from, v) / glm::dot(v, v), 0.0, 1.0);
+  return glm::length(from - s * u - t * v);
+}
+
 EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)
   : Bands_(bands)
   , Cells_(std::move(cells))
@@ -190,10 +200,10 @@ void EmitterSet::FindSigns()
   }
 }
 
-std::vector<int> EmitterSet::JoinCells() const
+std::vector<int> EmitterSet::JoinCells(bool samePlane) const
 {
-  // Cells join when they share what a light must have in common and, for lamps, a corner: a ceiling's
-  // lamps stay apart, the pieces of a luminous panel do not.
+  // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a luminous
+  // panel do not.
   using Key = std::array<double, 8>;
   std::map<Key, int> lights;
   std::vector<int> parent;
@@ -221,8 +231,9 @@ std::vector<int> EmitterSet::JoinCells() const
       const auto round = [](double value, double step) { return std::round(value / step) * step; };
       const double grid = 1e-4 * std::sqrt(this->Areas_[i]);
       const double step = std::exp2(std::ceil(std::log2(grid)));
-      const Key key = { static_cast<double>(cell.SignId), cell.Exponent, round(n.x, 1e-5),
-        round(n.y, 1e-5), round(n.z, 1e-5), round(place.x, step), round(place.y, step),
+      const Key key = { static_cast<double>(cell.SignId), samePlane ? cell.Exponent : 0.0,
+        samePlane ? round(n.x, 1e-5) : 0.0, samePlane ? round(n.y, 1e-5) : 0.0,
+        samePlane ? round(n.z, 1e-5) : 0.0, round(place.x, step), round(place.y, step),
         round(place.z, step) };
       const auto [known, fresh] = lights.try_emplace(key, lightOf[i]);
       if (!fresh)
@@ -249,7 +260,8 @@ std::vector<int> EmitterSet::JoinCells() const
 
 void EmitterSet::BuildLights(double largestLight)
 {
-  const std::vector<int> lightOf = this->JoinCells();
+  const std::vector<int> lightOf = this->JoinCells(true);
+  const std::vector<int> bodyOf = this->JoinCells(false);
   std::map<int, std::vector<LightGroup>> lights;
   std::map<int, double> areas;
   this->LeftToLines_.assign(this->Cells_.size(), false);
@@ -259,7 +271,15 @@ void EmitterSet::BuildLights(double largestLight)
     {
       continue;
     }
-    areas[lightOf[i]] += this->Areas_[i];
+    areas[bodyOf[i]] += this->Areas_[i];
+  }
+  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
+  {
+    this->LeftToLines_[i] = lightOf[i] >= 0 && areas[bodyOf[i]] > largestLight;
+    if (lightOf[i] < 0 || this->LeftToLines_[i])
+    {
+      continue;
+    }
     const EmitterCell& cell = this->Cells_[i];
     const std::vector<Vec3>& vertices = cell.Vertices;
     for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
@@ -269,16 +289,8 @@ void EmitterSet::BuildLights(double largestLight)
         MakeLeaf(cell, this->Normals_[i], { vertices[0], vertices[v], vertices[v + 1], last }));
     }
   }
-  for (std::size_t i = 0; i < this->Cells_.size(); ++i)
-  {
-    this->LeftToLines_[i] = lightOf[i] >= 0 && areas[lightOf[i]] > largestLight;
-  }
   for (auto& [light, leaves] : lights)
   {
-    if (areas[light] > largestLight)
-    {
-      continue;
-    }
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
@@ -323,6 +335,22 @@ void EmitterSet::FillGroup(
       all.Radius = std::max(all.Radius, glm::length(corner - all.Centre));
     }
   }
+  // The rectangle around the group, along the first leaf's first edge.
+  const Vec3 u = glm::normalize(leaves[begin].Corners[1] - leaves[begin].Corners[0]);
+  const Vec3 v = glm::cross(all.Normal, u);
+  glm::dvec2 least(1e300);
+  glm::dvec2 most(-1e300);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    for (const Vec3& corner : leaves[i].Corners)
+    {
+      const glm::dvec2 at(glm::dot(corner - all.Centre, u), glm::dot(corner - all.Centre, v));
+      least = glm::min(least, at);
+      most = glm::max(most, at);
+    }
+  }
+  all.Corners = { all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
+    all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v };
   const Vec3 extent = high - low;
   const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2)
                                         : (extent.y >= extent.z ? 1 : 2);

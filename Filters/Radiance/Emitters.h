@@ -50,20 +50,23 @@ struct LightGroup
   double Area = 0.0;
   /// First of two children, which follow each other; -1: a leaf.
   int FirstChild = -1;
-  /// A leaf's quadrilateral; a triangle repeats its last corner.
+  /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the group.
   std::array<Vec3, 4> Corners{};
+
+  /// Distance of a point from the plane rectangle around the group [m].
+  double Distance(const Vec3& point) const;
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells of
-/// lamps, that share a plane) form one light, a tree of groups. A light that is large against the scene,
-/// such as a luminous wall, is met by random lines often enough to leave it to them.
+/// lamps, that share a plane) form one light, a tree of groups. A luminous body that is large against the
+/// scene, such as a wall, is met by random lines often enough to leave it to them.
 class EmitterSet
 {
 public:
   EmitterSet() = default;
   /// Checks the cells; throws Error for polygons that are not plane and convex, and for luminances,
   /// exponents or reflectances out of range.
-  /// @param largestLight area above which a light is left to the random lines [m2]
+  /// @param largestLight area above which a luminous body is left to the random lines [m2]
   EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight);
 
   int Bands() const { return this->Bands_; }
@@ -85,8 +88,9 @@ public:
 
 private:
   void FindSigns();
-  /// Numbers the lights that cells belong to; cells without light of their own get -1.
-  std::vector<int> JoinCells() const;
+  /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light of
+  /// their own get -1.
+  std::vector<int> JoinCells(bool samePlane) const;
   void BuildLights(double largestLight);
   void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);
 

@@ -27,8 +27,11 @@ constexpr int FirstWindow = 3;
 constexpr int MostSweeps = 6144;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that the
 /// drift from window to window is.
-constexpr double ErrorShare = 0.5;
+constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
+/// A field is not scaled by more than this at once.
+constexpr double SmallestScale = 0.25;
+constexpr double LargestScale = 1e3;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -52,9 +55,10 @@ private:
   void SolveCells();
   void SolvePatches();
   void SolveMultiple(int band);
-  void Balance(const LineSweep& sweep, double source, std::vector<double>& before,
+  void Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
     std::vector<BatchState>& batches) const;
-  int Settle(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(
+    const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
   void CheckStop() const
@@ -204,30 +208,21 @@ void Solver::Sweep(
   this->CheckStop();
 }
 
-void Solver::Balance(const LineSweep& sweep, double source, std::vector<double>& before,
+void Solver::Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
   std::vector<BatchState>& batches) const
 {
   // The power that surfaces and smoke send out again must be that which arrived and was not lost. A
   // field that is scaled to be in balance as a whole has its slowest mode's series of reflections
-  // summed at once.
-  std::vector<double> after(batches.size());
-  double sumBefore = 0.0;
-  double sumAfter = 0.0;
+  // summed at once. Each batch for itself, so that their spread shows how well the scale is known.
+  const double source = sweep.FirstSource();
+  double gained = 0.0;
   for (std::size_t i = 0; i < batches.size(); ++i)
   {
-    after[i] = sweep.LaterSource(batches[i]);
-    sumBefore += before[i] / Batches;
-    sumAfter += after[i] / Batches;
-  }
-  const double kept = source + sumBefore - sumAfter;
-  if (!(kept > 1e-9 * (source + sumBefore)))
-  {
-    throw Error("light field", "no light is lost anywhere, so that it would grow without end",
-      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
-  }
-  const double scale = std::clamp(source / kept, 0.25, 1e4);
-  for (std::size_t i = 0; i < batches.size(); ++i)
-  {
+    const double after = sweep.LaterSource(batches[i]);
+    const double kept = source + (before[i] - after) / sweeps;
+    const double scale =
+      kept > 0.0 ? std::clamp(source / kept, SmallestScale, LargestScale) : LargestScale;
+    gained += kept > 1e-9 * (source + after) ? 0.0 : 1.0;
     for (std::vector<float>* values : { &batches[i].Fluence, &batches[i].Illuminance })
     {
       for (float& value : *values)
@@ -235,14 +230,18 @@ void Solver::Balance(const LineSweep& sweep, double source, std::vector<double>&
         value *= static_cast<float>(scale);
       }
     }
-    before[i] = after[i] * scale;
+    before[i] = after * scale;
+  }
+  if (gained == Batches)
+  {
+    throw Error("light field", "no light is lost anywhere, so that it would grow without end",
+      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
   }
 }
 
 int Solver::Settle(
-  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
+  const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
 {
-  const double source = sweep.FirstSource();
   std::vector<double> before(batches.size(), 0.0);
   BlockMeans earlier;
   int done = 0;
@@ -258,11 +257,11 @@ int Solver::Settle(
       this->Sweep(sweep, batches, key + done);
       if (first == 0)
       {
-        this->Balance(sweep, source, before, batches);
+        this->Balance(sweep, 1, before, batches);
       }
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
-    BlockMeans now(batches);
+    BlockMeans now(batches, this->Field_, band);
     if (first > 0 &&
       now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
     {
@@ -274,6 +273,10 @@ int Solver::Settle(
         "the light did not settle in " + std::to_string(done) + " sweeps",
         "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that light "
         "is hardly ever lost");
+    }
+    if (first > 0)
+    {
+      this->Balance(sweep, window, before, batches);
     }
     earlier = std::move(now);
   }
@@ -312,7 +315,7 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  int done = this->Settle(sweep, batches, key);
+  int done = this->Settle(sweep, band, batches, key);
   const int settling = done - batches.front().Counted;
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
   double error = probes.RelativeError(batches);

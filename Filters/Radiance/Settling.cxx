@@ -11,27 +11,9 @@ namespace
 
 /// Few blocks are known well; more would only show how noise differs from place to place.
 constexpr std::size_t MostBlocks = 16;
-
-void AddBlocks(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
-  std::vector<std::vector<double>>& blocks)
-{
-  const std::size_t count = (batches.front().*values).size();
-  const std::size_t parts = std::min(MostBlocks, count);
-  for (std::size_t part = 0; part < parts; ++part)
-  {
-    std::vector<double> block(batches.size(), 0.0);
-    for (std::size_t batch = 0; batch < batches.size(); ++batch)
-    {
-      const std::vector<float>& sums = batches[batch].*values;
-      for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i)
-      {
-        block[batch] += sums[i];
-      }
-      block[batch] /= std::max(1, batches[batch].Counted);
-    }
-    blocks.push_back(std::move(block));
-  }
-}
+/// Share of the mean light of all blocks that a dark block is given, so that it need not be known to a
+/// share of next to nothing.
+constexpr double DarkShare = 0.1;
 
 double MeanOf(const std::vector<double>& values)
 {
@@ -57,10 +39,41 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 } // namespace
 
-BlockMeans::BlockMeans(const std::vector<BatchState>& batches)
+BlockMeans::BlockMeans(
+  const std::vector<BatchState>& batches, const LightField& field, int band)
 {
-  AddBlocks(batches, &BatchState::FluenceSum, this->Blocks_);
-  AddBlocks(batches, &BatchState::IlluminanceSum, this->Blocks_);
+  this->Add(
+    batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0));
+  this->Add(batches, &BatchState::IlluminanceSum,
+    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0));
+}
+
+void BlockMeans::Add(const std::vector<BatchState>& batches,
+  std::vector<float> BatchState::*sums, const float* direct)
+{
+  const std::size_t count = (batches.front().*sums).size();
+  const std::size_t parts = std::min(MostBlocks, count);
+  const std::size_t first = this->Blocks_.size();
+  double mean = 0.0;
+  for (std::size_t part = 0; part < parts; ++part)
+  {
+    Block block;
+    block.Multiple.assign(batches.size(), 0.0);
+    for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i)
+    {
+      block.Direct += direct[i];
+      for (std::size_t batch = 0; batch < batches.size(); ++batch)
+      {
+        block.Multiple[batch] += (batches[batch].*sums)[i] / std::max(1, batches[batch].Counted);
+      }
+    }
+    mean += (block.Direct + MeanOf(block.Multiple)) / static_cast<double>(parts);
+    this->Blocks_.push_back(std::move(block));
+  }
+  for (std::size_t block = first; block < this->Blocks_.size(); ++block)
+  {
+    this->Blocks_[block].Direct += DarkShare * mean;
+  }
 }
 
 double BlockMeans::DriftSince(const BlockMeans& earlier) const
@@ -68,20 +81,22 @@ double BlockMeans::DriftSince(const BlockMeans& earlier) const
   double signal = 0.0;
   double weights = 0.0;
   int used = 0;
-  for (std::size_t block = 0; block < this->Blocks_.size(); ++block)
+  for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
-    const double now = MeanOf(this->Blocks_[block]);
-    const double then = MeanOf(earlier.Blocks_[block]);
-    if (!(now > 0.0))
+    const Block& block = this->Blocks_[index];
+    const std::vector<double>& before = earlier.Blocks_[index].Multiple;
+    const double now = MeanOf(block.Multiple);
+    const double then = MeanOf(before);
+    const double all = std::max(0.0, now) + block.Direct;
+    if (!(all > 0.0))
     {
       continue;
     }
-    const double variance =
-      VarianceOf(this->Blocks_[block], now) + VarianceOf(earlier.Blocks_[block], then);
     // Blocks count by how well they are known.
-    const double weight = now * now / std::max(variance, 1e-12 * now * now);
+    const double variance = VarianceOf(block.Multiple, now) + VarianceOf(before, then);
+    const double weight = all * all / std::max(variance, 1e-12 * all * all);
     weights += weight;
-    signal += weight * (now - then) * (now - then) / (now * now);
+    signal += weight * (now - then) * (now - then) / (all * all);
     ++used;
   }
   if (used == 0)

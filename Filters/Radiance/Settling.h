@@ -14,16 +14,26 @@ class BlockMeans
 {
 public:
   BlockMeans() = default;
-  /// From the running means of the batches.
-  explicit BlockMeans(const std::vector<BatchState>& batches);
+  /// From the running means of the batches; the direct light of the band is what it adds to.
+  BlockMeans(const std::vector<BatchState>& batches, const LightField& field, int band);
 
-  /// Upper estimate of the root mean square, over the blocks, of the relative drift from an earlier
-  /// window to this one, noise taken out.
+  /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window to this
+  /// one over all light of the block (or over a floor where a block lies in the dark), noise taken out.
   double DriftSince(const BlockMeans& earlier) const;
 
 private:
-  /// [block][batch].
-  std::vector<std::vector<double>> Blocks_;
+  struct Block
+  {
+    double Direct = 0.0;
+    /// A value a batch.
+    std::vector<double> Multiple;
+  };
+
+  void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
+    const float* direct);
+
+  /// Of the fluence, then of the illuminance; all blocks of one kind hold about as many values.
+  std::vector<Block> Blocks_;
 };
 
 } // namespace smokevis

@@ -41,6 +41,7 @@ VeilProbes::VeilProbes(
     brightest = std::max(brightest, cell.Luminance[band]);
   }
   this->Floor_ = FaintestShare * brightest;
+  this->MeanShare_ = signs.empty() ? 1.0 : 0.0;
   const double size = glm::length(scene.Upper() - scene.Lower());
   for (int i = 0; i < MostProbes; ++i)
   {
@@ -114,26 +115,35 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
 
 double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
 {
-  double squares = 0.0;
-  int used = 0;
+  std::vector<Lanes> lights;
+  double sum = 0.0;
   for (const Probe& probe : this->Probes_)
   {
     Lanes light;
     for (int batch = 0; batch < Batches; ++batch)
     {
       const BatchState& state = batches[batch];
-      double sum = 0.0;
+      double later = 0.0;
       for (const Piece& piece : probe.Pieces)
       {
-        sum += piece.Weight * state.FluenceSum[piece.Cell];
+        later += piece.Weight * state.FluenceSum[piece.Cell];
       }
       if (probe.SurfaceWeight > 0.0)
       {
-        sum += probe.SurfaceWeight * state.IlluminanceSum[probe.Side];
+        later += probe.SurfaceWeight * state.IlluminanceSum[probe.Side];
       }
-      light[batch] = static_cast<float>(probe.Direct + sum / std::max(1, state.Counted));
+      light[batch] = static_cast<float>(probe.Direct + later / std::max(1, state.Counted));
     }
-    const double mean = std::max(0.0, Mean(light)) + this->Floor_;
+    sum += std::max(0.0, Mean(light));
+    lights.push_back(light);
+  }
+  const double floor =
+    this->Floor_ + this->MeanShare_ * sum / static_cast<double>(this->Probes_.size());
+  double squares = 0.0;
+  int used = 0;
+  for (const Lanes& light : lights)
+  {
+    const double mean = std::max(0.0, Mean(light)) + floor;
     if (mean > 0.0)
     {
       const double relative = StandardError(light) / mean;

@@ -15,7 +15,7 @@ namespace smokevis
 namespace
 {
 
-/// A light counts as near to a cell within its own radius plus so many cell edges of the cell: the
+/// A light counts as near to a cell within so many cell edges of the cell: the
 /// fluence of its light is then too steep to be interpolated between cells.
 constexpr double NearEdges = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
@@ -25,6 +25,10 @@ constexpr double DeepestDepth = 60.0;
 constexpr int MostParts = 16;
 constexpr int GradedParts = 2;
 constexpr double Grading = 0.25;
+
+/// A line meets a wall in the border of two cells to single precision only, so that cells inside solids
+/// see a trace of the light outside: less than this share of the mean fluence.
+constexpr double LeakShare = 1e-4;
 
 /// Gauss-Legendre nodes and weights on (0, 1).
 constexpr std::array<double, 4> GaussNodes = { 0.06943184420297371, 0.33000947820757187,
@@ -85,9 +89,11 @@ struct View::Implementation
   {
     this->FindOpenFaces();
     this->FindNearCells();
+    this->FindLeak();
   }
 
   void FindOpenFaces();
+  void FindLeak();
   void FindNearCells();
   Spectrum FarFluence(const NearCell& near, const Vec3& point) const;
   /// Direct fluence, of the lights that are not near, at a point of a cell [lx].
@@ -118,6 +124,8 @@ struct View::Implementation
   std::vector<unsigned char> OpenFaces;
   std::vector<std::int32_t> NearIndex;
   std::vector<NearCell> NearCells;
+  /// Fluence that rounding may let through the walls of a solid [lx].
+  Spectrum Leak{};
 };
 
 void View::Implementation::FindOpenFaces()
@@ -158,6 +166,20 @@ void View::Implementation::FindOpenFaces()
     });
 }
 
+void View::Implementation::FindLeak()
+{
+  for (int band = 0; band < this->Field.Bands; ++band)
+  {
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < this->Field.Cells; ++cell)
+    {
+      const std::size_t index = this->Field.CellIndex(band, cell);
+      sum += this->Field.DirectFluence[index] + Mean(this->Field.MultipleFluence[index]);
+    }
+    this->Leak[band] = LeakShare * sum / std::max<std::size_t>(1, this->Field.Cells);
+  }
+}
+
 void View::Implementation::FindNearCells()
 {
   const Medium& smoke = this->TheScene.Smoke();
@@ -183,11 +205,9 @@ void View::Implementation::FindNearCells()
         for (std::size_t light = 0; light < lights.Lights().size(); ++light)
         {
           const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-          const Vec3 from = centre - root.Centre;
-          const double limit = reach + root.Radius;
           // Behind a plate there is none of its light.
-          if (glm::dot(from, from) < limit * limit &&
-            glm::dot(from, root.Normal) > -root.Radius - glm::length(size))
+          if (root.Distance(centre) < reach &&
+            glm::dot(centre - root.Centre, root.Normal) > -root.Radius - glm::length(size))
           {
             nearLights[cell].push_back(static_cast<std::uint32_t>(light));
           }
@@ -542,7 +562,8 @@ bool View::InsideSolid(const Vec3& point) const
     for (int band = 0; band < this->Field_->Bands; ++band)
     {
       const std::size_t index = this->Field_->CellIndex(band, cell);
-      if (this->Field_->DirectFluence[index] + Mean(this->Field_->MultipleFluence[index]) > 0.0)
+      if (this->Field_->DirectFluence[index] + Mean(this->Field_->MultipleFluence[index]) >
+        this->Implementation_->Leak[band])
       {
         return false;
       }

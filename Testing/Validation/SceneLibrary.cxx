@@ -12,8 +12,6 @@ namespace smokevis::scenes
 namespace
 {
 
-constexpr double Pi = std::numbers::pi;
-
 struct Face
 {
   Vec3 Corner, EdgeU, EdgeV;
@@ -281,11 +279,13 @@ std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int c
     triangles = std::move(finer);
   }
   double volume = 0.0;
+  double surface = 0.0;
   for (const Triangle& t : triangles)
   {
     volume += std::abs(glm::dot(t[0], glm::cross(t[1], t[2]))) / 6.0;
+    surface += 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
   }
-  const double scale = radius * std::cbrt(4.0 / 3.0 * Pi / volume);
+  const double scale = radius * surface / (3.0 * volume);
   std::vector<EmitterCell> cells;
   for (Triangle& t : triangles)
   {
@@ -339,7 +339,7 @@ Slab MakeSlab(double opticalDepth, double albedo, int layers)
   const Vec3 u(2.0 * half, 0, 0);
   const Vec3 v(0, 2.0 * half, 0);
   AddRectangle(scene.Surfaces, { -half, -half, 1 }, v, u, Across, Across, 0.0);
-  scene.Emitters = EmittingRectangle({ -half, -half, 0 }, u, v, Across, Across, 1.0 / Pi, 0.0);
+  scene.Emitters = EmittingRectangle({ -half, -half, 0 }, u, v, Across, Across, std::numbers::inv_pi, 0.0);
 
   // 12 of 20 cells are nearer to the middle than 0.6 of the half width.
   slab.MiddleCells.resize(static_cast<std::size_t>(layers));

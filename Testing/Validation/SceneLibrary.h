@@ -56,7 +56,7 @@ std::vector<EmitterCell> EmittingRoom(
   const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance);
 
 /// Triangles of an icosahedron whose faces were cut in four so many times, around a centre. The
-/// corners lie outside the given radius such that the enclosed volume is the sphere's.
+/// corners lie outside the given radius such that the mean chord, 4 volume / surface, is the sphere's.
 std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int cuts, bool inwards,
   double luminance, double reflectance);
 

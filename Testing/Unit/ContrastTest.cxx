@@ -1,0 +1,173 @@
+// The contrast of a sign without smoke, where everything is known.
+#include "Contrast.h"
+#include "FloorMap.h"
+
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// A sign of nine stripes, 0.9 m x 0.3 m times a scale, in the plane x = 0, that faces towards +x;
+/// every other stripe has the high luminance. No smoke.
+SceneDescription Stripes(double high, double low, double scale = 1.0)
+{
+  SceneDescription scene;
+  for (int bar = 0; bar < 9; ++bar)
+  {
+    const double y = 0.1 * bar - 0.45;
+    EmitterCell cell;
+    cell.Vertices = { { 0, y, -0.15 }, { 0, y + 0.1, -0.15 }, { 0, y + 0.1, 0.15 },
+      { 0, y, 0.15 } };
+    for (Vec3& vertex : cell.Vertices)
+    {
+      vertex *= scale;
+    }
+    cell.Luminance.fill(bar % 2 == 0 ? high : low);
+    cell.SignId = 4;
+    scene.Emitters.push_back(cell);
+  }
+  return scene;
+}
+
+void AddWall(SurfaceMesh& mesh, double x, double y0, double y1)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+  mesh.Points.insert(mesh.Points.end(),
+    { { x, y0, -5 }, { x, y1, -5 }, { x, y1, 5 }, { x, y0, 5 } });
+  mesh.Triangles.push_back({ first, first + 1, first + 2 });
+  mesh.Triangles.push_back({ first, first + 2, first + 3 });
+  mesh.TriangleCell.insert(
+    mesh.TriangleCell.end(), 2, static_cast<std::uint32_t>(mesh.CellReflectance.size()));
+  mesh.CellReflectance.push_back({});
+}
+
+std::unique_ptr<View> ViewOf(SceneDescription description)
+{
+  const auto scene = std::make_shared<const Scene>(std::move(description));
+  Progress progress;
+  const auto field =
+    std::make_shared<const LightField>(SolveLightField(*scene, LightFieldOptions(), progress));
+  return std::make_unique<View>(scene, field);
+}
+
+const Observer Plain{ 0.0 };
+
+// Five of nine equal stripes at H, four at L: mean (5 H + 4 L) / 9, deviation sqrt(20) / 9 (H - L).
+// From far off on the axis the stripes' solid angles are equal to (0.45 / 100)^2.
+TEST(Contrast, OfStripes)
+{
+  const double high = 100.0;
+  const double low = 10.0;
+  const auto view = ViewOf(Stripes(high, low));
+  const SignMeasurement sign = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
+  const double mean = (5.0 * high + 4.0 * low) / 9.0;
+  const double deviation = std::sqrt(20.0) / 9.0 * (high - low);
+  EXPECT_TRUE(sign.InView);
+  EXPECT_NEAR(sign.VisibleFraction, 1.0, 1e-6);
+  EXPECT_NEAR(sign.MeanLuminance, mean, 1e-4 * mean);
+  EXPECT_NEAR(sign.LitLuminance, high, 1e-4 * high);
+  EXPECT_NEAR(sign.UnlitLuminance, low, 1e-4 * low);
+  EXPECT_NEAR(sign.Contrast, deviation / mean, 1e-4);
+  EXPECT_NEAR(sign.WebberContrast, (high - low) / low, 1e-3);
+  EXPECT_NEAR(sign.UL924Contrast, (high - low) / high, 1e-4);
+  EXPECT_EQ(sign.ContrastError, 0.0);
+  EXPECT_EQ(sign.OpticalDepth, 0.0);
+}
+
+TEST(Contrast, DarkLuminanceOfTheObserver)
+{
+  const auto view = ViewOf(Stripes(1.0, 0.0));
+  const SignMeasurement plain = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
+  const SignMeasurement dark = MeasureSign(*view, 0, { 100, 0, 0 }, Observer{ 0.5 });
+  EXPECT_NEAR(plain.PerceivedContrast, plain.Contrast, 1e-9);
+  EXPECT_NEAR(dark.Contrast, plain.Contrast, 1e-9);
+  EXPECT_NEAR(dark.PerceivedContrast,
+    plain.Contrast * plain.MeanLuminance / (plain.MeanLuminance + 0.5), 1e-6);
+}
+
+TEST(Contrast, FromTheBackAndFromTheEdge)
+{
+  const auto view = ViewOf(Stripes(1.0, 0.0));
+  for (const Vec3& eye : { Vec3(-5, 0, 0), Vec3(0, 5, 0), Vec3(-1e-9, 0, 0) })
+  {
+    const SignMeasurement sign = MeasureSign(*view, 0, eye, Plain);
+    EXPECT_FALSE(sign.InView);
+    EXPECT_EQ(sign.Contrast, 0.0);
+    EXPECT_EQ(sign.VisibleFraction, 0.0);
+    EXPECT_EQ(PerceivedContrastBound(*view, 0, eye, Plain), 0.0);
+  }
+}
+
+// A wall half way hides everything on one side of the line through it.
+TEST(Contrast, PartlyHidden)
+{
+  SceneDescription scene = Stripes(100.0, 0.0);
+  AddWall(scene.Surfaces, 50.0, 0.0, 10.0);
+  const auto view = ViewOf(std::move(scene));
+  const SignMeasurement half = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
+  EXPECT_TRUE(half.InView);
+  // Pieces are seen or not as a whole: those that the edge cuts are a stripe's width at most.
+  EXPECT_NEAR(half.VisibleFraction, 0.5, 0.5 / 9.0 + 1e-6);
+  EXPECT_NEAR(half.LitLuminance, 100.0, 1e-2);
+  const SignMeasurement none = MeasureSign(*view, 0, { 100, 2, 0 }, Plain);
+  EXPECT_FALSE(none.InView);
+  const SignMeasurement all = MeasureSign(*view, 0, { 100, -2, 0 }, Plain);
+  EXPECT_NEAR(all.VisibleFraction, 1.0, 1e-6);
+}
+
+// Stripes far below the resolution melt into their mean: 1 mm at 20 m is a sixth of a minute of arc.
+TEST(Contrast, FinerThanTheEyeResolves)
+{
+  SceneDescription scene = Stripes(100.0, 0.0, 0.01);
+  AddWall(scene.Surfaces, 25.0, -5.0, 5.0);
+  const auto view = ViewOf(std::move(scene));
+  const SignMeasurement near = MeasureSign(*view, 0, { 0.5, 0, 0 }, Plain);
+  const SignMeasurement far = MeasureSign(*view, 0, { 20, 0, 0 }, Plain);
+  EXPECT_NEAR(near.Contrast, std::sqrt(20.0) / 5.0, 1e-3);
+  EXPECT_NEAR(far.VisibleFraction, 1.0, 1e-6);
+  EXPECT_LT(far.Contrast, 0.2);
+  EXPECT_NEAR(far.MeanLuminance, 500.0 / 9.0, 0.5);
+}
+
+TEST(Contrast, BoundHolds)
+{
+  const auto view = ViewOf(Stripes(1.0, 0.2));
+  const Observer observer;
+  for (const Vec3& eye : { Vec3(1, 0, 0), Vec3(5, 4, 1), Vec3(0.2, 3, 0), Vec3(300, 0, 0) })
+  {
+    EXPECT_GE(PerceivedContrastBound(*view, 0, eye, observer) + 1e-6,
+      MeasureSign(*view, 0, eye, observer).PerceivedContrast);
+  }
+}
+
+// Places before, behind and, for a wall between, out of sight of the sign.
+TEST(FloorMap, StatusOfPlaces)
+{
+  SceneDescription scene = Stripes(100.0, 0.0);
+  AddWall(scene.Surfaces, 5.0, -10.0, 10.0);
+  const auto view = ViewOf(std::move(scene));
+  FloorMapOptions options;
+  options.FirstPlace = { -2, 0, 0 };
+  options.StepX = 4.0;
+  options.PlacesX = 3;
+  options.PlacesY = 1;
+  Progress progress;
+  const FloorMap map = ComputeFloorMap(*view, options, progress);
+  ASSERT_EQ(map.Status.size(), 3U);
+  EXPECT_EQ(map.Signs, 1U);
+  EXPECT_EQ(map.Status[0], PlaceStatus::NoSignInView);
+  EXPECT_EQ(map.Status[1], PlaceStatus::Seen);
+  EXPECT_EQ(map.Status[2], PlaceStatus::NoSignInView);
+  EXPECT_EQ(map.BestSign[1], 4);
+  EXPECT_EQ(map.BestSign[0], -1);
+  EXPECT_NEAR(map.Visibility[1], std::sqrt(20.0) / 5.0, 0.02);
+  EXPECT_EQ(map.Visibility[0], 0.0F);
+  EXPECT_FLOAT_EQ(map.VisibleFraction[1], 1.0F);
+}
+
+} // namespace

@@ -1,0 +1,176 @@
+// Plates: their areas, signs, lights, and the closed forms of polygons' light.
+#include "Emitters.h"
+#include "PolygonLight.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+constexpr double Pi = std::numbers::pi;
+/// All lights shine directly, however large.
+constexpr double AnySize = 1e300;
+
+/// A rectangle in the plane z = 0 with its front upwards.
+EmitterCell Rectangle(double x0, double x1, double y0, double y1, double luminance, int signId)
+{
+  EmitterCell cell;
+  cell.Vertices = { { x0, y0, 0 }, { x1, y0, 0 }, { x1, y1, 0 }, { x0, y1, 0 } };
+  cell.Luminance = { luminance, luminance, luminance };
+  cell.SignId = signId;
+  return cell;
+}
+
+TEST(Emitters, AreaNormalCentre)
+{
+  EmitterCell triangle;
+  triangle.Vertices = { { 0, 0, 1 }, { 0, 3, 1 }, { 3, 0, 1 } };
+  EmitterCell hexagon;
+  for (int corner = 0; corner < 6; ++corner)
+  {
+    hexagon.Vertices.emplace_back(
+      5.0 + std::cos(Pi / 3.0 * corner), std::sin(Pi / 3.0 * corner), 2.0);
+  }
+  const EmitterSet set({ triangle, hexagon }, 1, AnySize);
+  EXPECT_DOUBLE_EQ(set.CellArea(0), 4.5);
+  EXPECT_EQ(set.CellNormal(0), Vec3(0, 0, -1));
+  EXPECT_LT(glm::length(set.CellCentre(0) - Vec3(1, 1, 1)), 1e-12);
+  EXPECT_NEAR(set.CellArea(1), 1.5 * std::sqrt(3.0), 1e-12);
+  EXPECT_LT(glm::length(set.CellCentre(1) - Vec3(5, 0, 2)), 1e-12);
+}
+
+// 2 pi L A / (n + 2): the integral of L cos^n cos over the hemisphere.
+TEST(Emitters, Flux)
+{
+  EmitterCell lambertian = Rectangle(0, 2, 0, 1, 10.0, -1);
+  EmitterCell narrow = Rectangle(5, 6, 0, 1, 10.0, -1);
+  narrow.Exponent = 8.0;
+  EXPECT_NEAR(EmitterSet({ lambertian }, 1, AnySize).Flux(0), Pi * 10.0 * 2.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({ narrow }, 1, AnySize).Flux(0), 2.0 * Pi * 10.0 / 10.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({ lambertian, narrow }, 1, AnySize).Flux(0), Pi * 20.0 + 2.0 * Pi, 1e-9);
+}
+
+TEST(Emitters, SignsInOrderOfTheirIds)
+{
+  const EmitterSet set({ Rectangle(0, 1, 0, 1, 1.0, 7), Rectangle(5, 6, 0, 2, 1.0, 3),
+                         Rectangle(1, 2, 0, 1, 0.0, 7), Rectangle(9, 10, 0, 1, 1.0, -1) },
+    1, AnySize);
+  ASSERT_EQ(set.Signs().size(), 2U);
+  EXPECT_EQ(set.Signs()[0].Id, 3);
+  EXPECT_EQ(set.Signs()[1].Id, 7);
+  const Sign& sign = set.Signs()[1];
+  EXPECT_EQ(sign.Cells, (std::vector<std::size_t>{ 0, 2 }));
+  EXPECT_LT(glm::length(sign.Centre - Vec3(1, 0.5, 0)), 1e-12);
+  EXPECT_LT(glm::length(sign.Normal - Vec3(0, 0, 1)), 1e-12);
+  EXPECT_NEAR(sign.Radius, 0.5 * std::sqrt(5.0), 1e-12);
+  EXPECT_NEAR(glm::length(sign.Corners[1] - sign.Corners[0]), 2.0, 1e-12);
+  EXPECT_NEAR(glm::length(sign.Corners[3] - sign.Corners[0]), 1.0, 1e-12);
+  // Counter-clockwise from the front.
+  const Vec3 turn = glm::cross(
+    sign.Corners[1] - sign.Corners[0], sign.Corners[2] - sign.Corners[1]);
+  EXPECT_GT(glm::dot(turn, sign.Normal), 0.0);
+}
+
+/// Sums what the leaves under a group hold, and checks that they lie within its radius.
+void AddLeaves(
+  const EmitterSet& set, int index, const LightGroup& root, double& intensity, double& area)
+{
+  const LightGroup& group = set.Groups()[static_cast<std::size_t>(index)];
+  if (group.FirstChild >= 0)
+  {
+    AddLeaves(set, group.FirstChild, root, intensity, area);
+    AddLeaves(set, group.FirstChild + 1, root, intensity, area);
+    return;
+  }
+  intensity += group.Intensity[0];
+  area += group.Area;
+  for (const Vec3& corner : group.Corners)
+  {
+    EXPECT_LE(glm::length(corner - root.Centre), root.Radius * (1.0 + 1e-12));
+  }
+}
+
+// The lit cells of a sign form one light, each lamp is one, dark cells none.
+TEST(Emitters, LightsAndTheirGroups)
+{
+  std::vector<EmitterCell> cells;
+  for (int bar = 0; bar < 9; ++bar)
+  {
+    cells.push_back(Rectangle(bar, bar + 1, 0, 4, bar % 2 == 0 ? 3.0 : 0.0, 0));
+  }
+  cells.push_back(Rectangle(20, 21, 0, 1, 5.0, -1));
+  cells.push_back(Rectangle(22, 23, 0, 1, 5.0, -1));
+  const EmitterSet set(cells, 1, AnySize);
+  ASSERT_EQ(set.Lights().size(), 3U);
+  const std::array<double, 3> intensities = { 5 * 4 * 3.0, 5.0, 5.0 };
+  const std::array<double, 3> areas = { 5 * 4.0, 1.0, 1.0 };
+  for (std::size_t light = 0; light < 3; ++light)
+  {
+    const LightGroup& root = set.Groups()[static_cast<std::size_t>(set.Lights()[light])];
+    double intensity = 0.0;
+    double area = 0.0;
+    AddLeaves(set, set.Lights()[light], root, intensity, area);
+    EXPECT_NEAR(intensity, intensities[light], 1e-12);
+    EXPECT_NEAR(area, areas[light], 1e-12);
+    EXPECT_NEAR(root.Intensity[0], intensity, 1e-12);
+    EXPECT_NEAR(root.Area, area, 1e-12);
+  }
+}
+
+// Large lights are left to the lines: a sign counts with all its lit cells.
+TEST(Emitters, LargeLightsAreLeftToLines)
+{
+  const EmitterSet set({ Rectangle(0, 1, 0, 1, 1.0, 0), Rectangle(1, 2, 0, 1, 1.0, 0),
+                         Rectangle(5, 6, 0, 1, 1.0, -1), Rectangle(7, 9, 0, 1, 1.0, -1) },
+    1, 1.5);
+  EXPECT_TRUE(set.LeftToLines(0));
+  EXPECT_TRUE(set.LeftToLines(1));
+  EXPECT_FALSE(set.LeftToLines(2));
+  EXPECT_TRUE(set.LeftToLines(3));
+  EXPECT_EQ(set.Lights().size(), 1U);
+  EXPECT_NEAR(set.Flux(0), 5.0 * Pi, 1e-12);
+  EXPECT_NEAR(set.CellFlux(3, 0), 2.0 * Pi, 1e-12);
+}
+
+// A cube's face takes a sixth of the sphere seen from its centre.
+TEST(PolygonLight, SolidAngle)
+{
+  const Vec3 a(-1, -1, 1);
+  const Vec3 b(1, -1, 1);
+  const Vec3 c(1, 1, 1);
+  const Vec3 d(-1, 1, 1);
+  const Vec3 point(0.0);
+  EXPECT_NEAR(
+    SolidAngle(point, a, b, c) + SolidAngle(point, a, c, d), 4.0 * Pi / 6.0, 1e-12);
+  // Right at a large polygon: half of the sphere. In its plane beside it: nothing.
+  const Vec3 wide(100, 100, 1);
+  const Vec3 close(0.1, 0.2, 1 - 1e-9);
+  const double near =
+    SolidAngle(close, wide * a, wide * b, wide * c) + SolidAngle(close, wide * a, wide * c, wide * d);
+  EXPECT_NEAR(near, 2.0 * Pi, 1e-6);
+  EXPECT_NEAR(SolidAngle({ 5, 5, 1 }, a, b, c), 0.0, 1e-12);
+}
+
+// Configuration factors of unit squares at distance 1: parallel 0.1998 is between areas; the point
+// form for a square of half width 1 at height 1, seen from below its centre, is
+// (4 / (2 pi)) * 2 * (1 / sqrt 2) atan(1 / sqrt 2) (Howell's catalogue, B-4).
+TEST(PolygonLight, ProjectedSolidAngle)
+{
+  const std::array<Vec3, 4> square = { Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, 1, 1),
+    Vec3(1, -1, 1) };
+  const double factor =
+    4.0 / (2.0 * Pi) * 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 0, 0, 1 }, square), Pi * factor, 1e-12);
+  // A vertical plane sees the half of the square before it.
+  const std::array<Vec3, 4> half = { Vec3(0, -1, 1), Vec3(0, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1) };
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, square),
+    ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, half), 1e-12);
+  EXPECT_GT(ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, half), 0.1);
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 0, 0, -1 }, square), 0.0, 1e-12);
+}
+
+} // namespace

@@ -1,0 +1,124 @@
+// The filters without ParaView: no process module, no MPI controller.
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkExitSignSource.h>
+#include <vtkFloorMapOfVisibility.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPointData.h>
+#include <vtkSmokeLightField.h>
+#include <vtkVisibilityImage.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+/// A light field of clear or absorbing air and one sign, 3 m from the eye.
+class PipelineTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Smoke->SetDimensions(5, 3, 3);
+    this->Smoke->SetSpacing(1.0, 1.0, 1.0);
+    this->SetExtinction(0.0);
+    this->Sign->SetCenter(4.0, 1.0, 1.0);
+    this->Sign->SetNormal(-1.0, 0.0, 0.0);
+    this->Field->SetAlbedo(0.0);
+    this->Field->SetInputDataObject(0, this->Smoke);
+    this->Field->AddInputConnection(2, this->Sign->GetOutputPort());
+    this->View->SetInputConnection(this->Field->GetOutputPort());
+    this->View->SetCameraPosition(1.0, 1.0, 1.0);
+    this->View->SetTargetSign(0);
+    this->View->SetDarkLuminance(0.0);
+    this->View->SetImageSize(8, 4);
+  }
+
+  void SetExtinction(double value)
+  {
+    vtkNew<vtkDoubleArray> extinction;
+    extinction->SetName("Extinction");
+    extinction->SetNumberOfTuples(16);
+    extinction->Fill(value);
+    this->Smoke->GetCellData()->AddArray(extinction);
+    this->Smoke->Modified();
+  }
+
+  double Result(const char* name)
+  {
+    this->View->Update();
+    vtkDataArray* array = this->View->GetOutput()->GetFieldData()->GetArray(name);
+    return array ? array->GetComponent(0, 0) : std::nan("");
+  }
+
+  vtkNew<vtkImageData> Smoke;
+  vtkNew<vtkExitSignSource> Sign;
+  vtkNew<vtkSmokeLightField> Field;
+  vtkNew<vtkVisibilityImage> View;
+};
+
+} // namespace
+
+TEST_F(PipelineTest, ShowsASignInClearAirAsItIs)
+{
+  EXPECT_NEAR(this->Result("LitLuminance"), 300.0, 1e-3);
+  EXPECT_NEAR(this->Result("UnlitLuminance"), 0.0, 1e-9);
+  // Five of nine bars are lit: sqrt(5/9 * 4/9) / (5/9). The outer, lit bars look smaller by up
+  // to 1.5 % (the cube of the cosine), which moves the share of the lit ones by some 0.1 %.
+  EXPECT_NEAR(this->Result("Contrast"), std::sqrt(0.8), 2e-3);
+  EXPECT_NEAR(this->Result("VisibleFraction"), 1.0, 1e-9);
+}
+
+TEST_F(PipelineTest, FollowsChangesUpstream)
+{
+  EXPECT_NEAR(this->Result("LitLuminance"), 300.0, 1e-3);
+  this->SetExtinction(1.0);
+  // Bouguer's law over 3 m and, in the mean over the plate, another 0.6 to 0.7 %.
+  EXPECT_NEAR(this->Result("LitLuminance"), 300.0 * std::exp(-3.0), 0.01 * 300.0 * std::exp(-3.0));
+  this->Sign->SetLuminance(600.0);
+  EXPECT_NEAR(this->Result("LitLuminance"), 600.0 * std::exp(-3.0), 0.01 * 600.0 * std::exp(-3.0));
+}
+
+TEST_F(PipelineTest, KeepsTheLightFieldWhereOnlyTheCameraMoves)
+{
+  this->View->Update();
+  const vtkMTimeType solved = this->Field->GetOutputDataObject(0)->GetUpdateTime();
+  this->View->SetCameraPosition(2.0, 1.0, 1.0);
+  this->View->Update();
+  EXPECT_EQ(this->Field->GetOutputDataObject(0)->GetUpdateTime(), solved);
+}
+
+TEST_F(PipelineTest, DoesNotAskForPiecesOfTheSmoke)
+{
+  // An image that wants a part of its own extent still sees the whole scene.
+  const double whole = this->Result("Contrast");
+  const int part[6] = {0, 0, 0, 0, 0, 0};
+  this->View->Modified();
+  this->View->UpdateExtent(part);
+  EXPECT_EQ(
+    this->View->GetOutput()->GetFieldData()->GetArray("Contrast")->GetComponent(0, 0), whole);
+}
+
+TEST_F(PipelineTest, MapsTheFloor)
+{
+  vtkNew<vtkFloorMapOfVisibility> map;
+  map->SetInputConnection(this->Field->GetOutputPort());
+  map->SetEyeHeight(1.0);
+  map->SetResolution(4, 2);
+  map->SetDarkLuminance(0.0);
+  map->Update();
+  vtkImageData* output = map->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 8);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    EXPECT_EQ(output->GetPointData()->GetArray("Status")->GetComponent(i, 0),
+      vtkFloorMapOfVisibility::SEEN);
+    // At half a metre the middle of the plate looks twice as large as its sides.
+    EXPECT_NEAR(
+      output->GetPointData()->GetArray("Visibility")->GetComponent(i, 0), std::sqrt(0.8), 0.03);
+  }
+}
