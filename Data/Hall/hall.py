@@ -95,7 +95,9 @@ run("floor map", hall_map, LAST)
 visibility = scene.values(hall_map, "Visibility")
 describe("signs only", visibility)
 simple.SaveData(path("hall_map.vti"), proxy=hall_map, DataMode="Binary")
-simple.SaveData(path("hall_map.csv"), proxy=hall_map)
+with_places = simple.Calculator(Input=hall_map, ResultArrayName="Place", Function="coords")
+simple.SaveData(path("hall_map.csv"), proxy=with_places)
+simple.Delete(with_places)
 figures.map_figure(path("hall_map.png"), visibility,
                    f"Dark hall, signs only, {LAST:g} s: perceived contrast of the best sign")
 
@@ -157,7 +159,7 @@ for when in TIMES:
     describe(f"{when:g} s", strip[when])
 change = abs(strip[LAST] - visibility).max()
 print(f"  at {LAST:g} s the tolerance of {COARSE:g} instead of {dark.Tolerance:g} changes "
-      f"no contrast by more than {change:.4f}")
+      f"no contrast by more than {change:.1e}")
 figures.strip_figure(path("hall_times.png"), strip)
 
 heading("Dark, emergency and lit hall")
