@@ -30,8 +30,9 @@ def draw_map(axes, visibility, small=False):
     """The map on matplotlib axes: grey scale 0 to 1, hatched where no sign is visible."""
     xmin, xmax, ymin, ymax = scene.HALL[:4]
     grid = visibility.reshape(PLACES[1], PLACES[0])
-    picture = axes.imshow(grid, origin="lower", extent=(xmin, xmax, ymin, ymax), cmap="gray",
-                          vmin=0.0, vmax=1.0, interpolation="nearest", aspect="equal")
+    picture = axes.imshow(numpy.ma.masked_less(grid, THRESHOLD), origin="lower",
+                          extent=(xmin, xmax, ymin, ymax), cmap="gray", vmin=0.0, vmax=1.0,
+                          interpolation="nearest", aspect="equal")
     width, depth = (xmax - xmin) / PLACES[0], (ymax - ymin) / PLACES[1]
     for row, column in zip(*numpy.nonzero(grid < THRESHOLD)):
         axes.add_patch(Rectangle((xmin + column * width, ymin + row * depth), width, depth,
