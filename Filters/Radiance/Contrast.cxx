@@ -236,7 +236,7 @@ bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell
   const double distance = glm::length(to);
   const Geometry& shapes = view.TheScene().Shapes();
   const Hit hit =
-    view.FirstHit(eye, to / distance, distance + 20.0 * shapes.Tolerance());
+    view.FirstHit(eye, to / distance, distance + 20.0 * shapes.Tolerance() + 1e-5 * distance);
   if (!hit.Found() || !hit.Emitter || hit.Side != 0)
   {
     return false;

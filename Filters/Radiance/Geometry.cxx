@@ -88,7 +88,6 @@ struct Geometry::Implementation
   DeviceHandle Device;
   Shapes Surfaces, Emitters;
   Vec3 Centre{ 0.0 };
-  double Size = 0.0;
   double Tolerance = 0.0;
 
   void Add(Shapes& shapes, const SurfaceMesh& mesh) const
@@ -221,7 +220,8 @@ Geometry::Geometry()
 {
 }
 
-Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters)
+Geometry::Geometry(
+  const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize)
   : Geometry()
 {
   Implementation& self = *this->Implementation_;
@@ -240,8 +240,7 @@ Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters)
     return;
   }
   self.Centre = 0.5 * (lower + upper);
-  self.Size = glm::length(upper - lower);
-  self.Tolerance = RelativeTolerance * self.Size;
+  self.Tolerance = RelativeTolerance * std::max(sceneSize, glm::length(upper - lower));
   self.Device.reset(rtcNewDevice("set_affinity=0"));
   if (!self.Device)
   {
@@ -350,7 +349,8 @@ bool Geometry::Occluded(
 bool Geometry::Visible(const Vec3& from, const Vec3& to) const
 {
   const double length = glm::length(to - from);
-  const double gap = 2.0 * this->Tolerance();
+  // Single precision places a far shape to a share of its distance.
+  const double gap = std::max(2.0 * this->Tolerance(), 2e-6 * length);
   if (length <= 2.0 * gap)
   {
     return true;

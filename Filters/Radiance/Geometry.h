@@ -54,7 +54,8 @@ class Geometry
 public:
   Geometry();
   /// Builds the search structures. Exact duplicates and triangles without area are left out.
-  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters);
+  /// @param sceneSize diagonal of all that rays come from, smoke included [m]
+  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize);
   ~Geometry();
   Geometry(Geometry&&) noexcept;
   Geometry& operator=(Geometry&&) noexcept;

@@ -98,8 +98,6 @@ Scene::Scene(SceneDescription description)
   CheckDescription(this->Description_);
   this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
   this->Smoke_ = Medium(std::move(this->Description_.Grids));
-  this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_);
-
   this->PatchReflectance_ = this->Description_.Surfaces.CellReflectance;
   this->PatchReflectance_.insert(this->PatchReflectance_.end(),
     this->EmitterMesh_.CellReflectance.begin(), this->EmitterMesh_.CellReflectance.end());
@@ -136,6 +134,8 @@ Scene::Scene(SceneDescription description)
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
   const Vec3 size = this->Upper_ - this->Lower_;
+  this->Shapes_ =
+    Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
   const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   this->Lights_ = EmitterSet(
     std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);

@@ -18,6 +18,8 @@ namespace
 /// A light counts as near to a cell within so many cell edges of the cell: the
 /// fluence of its light is then too steep to be interpolated between cells.
 constexpr double NearEdges = 4.0;
+/// Most change of the logarithm of a fluence across a cell.
+constexpr double SteepestChange = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
 /// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs into
@@ -87,6 +89,11 @@ struct View::Implementation
     , Field(field)
     , Direct(scene)
   {
+    this->MultipleMean.reserve(field.MultipleFluence.size());
+    for (const Lanes& lanes : field.MultipleFluence)
+    {
+      this->MultipleMean.push_back(static_cast<float>(Mean(lanes)));
+    }
     this->FindOpenFaces();
     this->FindNearCells();
     this->FindLeak();
@@ -98,8 +105,11 @@ struct View::Implementation
   Spectrum FarFluence(const NearCell& near, const Vec3& point) const;
   /// Direct fluence, of the lights that are not near, at a point of a cell [lx].
   double SmoothDirect(std::int64_t cell, const Vec3& point, int band) const;
+  /// Value of a field of cell means at a point of a cell, over its mean there. Light falls off
+  /// exponentially in smoke, so its logarithm is taken to vary linearly between neighbours.
+  double Shape(const float* means, std::int64_t cell, const Vec3& point) const;
   /// Adds weight times the batches of the fluence at a point of a cell.
-  void AddMultiple(std::int64_t cell, const Vec3& point, int band, float weight, Lanes& sum) const;
+  void AddMultiple(std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const;
   /// Light of near lights that a piece of a ray scatters towards its beginning, before what lies
   /// ahead of the piece dims it [cd/m2].
   double NearLight(const NearCell& near, const Vec3& origin, const Vec3& direction, double begin,
@@ -122,6 +132,8 @@ struct View::Implementation
   DirectLight Direct;
   /// Bit 2 axis + side is set where light passes freely from a cell's centre to its neighbour's.
   std::vector<unsigned char> OpenFaces;
+  /// Mean of the batches of the multiply scattered fluence.
+  std::vector<float> MultipleMean;
   std::vector<std::int32_t> NearIndex;
   std::vector<NearCell> NearCells;
   /// Fluence that rounding may let through the walls of a solid [lx].
@@ -280,10 +292,9 @@ Spectrum View::Implementation::FarFluence(const NearCell& near, const Vec3& poin
 
 double View::Implementation::SmoothDirect(std::int64_t cell, const Vec3& point, int band) const
 {
-  const Medium& smoke = this->TheScene.Smoke();
-  const Vec3 centre = smoke.CellCentre(cell);
   if (const NearCell* near = this->Near(cell))
   {
+    const Vec3 centre = this->TheScene.Smoke().CellCentre(cell);
     double value = near->Far[band];
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -292,68 +303,54 @@ double View::Implementation::SmoothDirect(std::int64_t cell, const Vec3& point, 
     return std::clamp(value, 0.0, 4.0 * near->Far[band]);
   }
   const float* direct = this->Field.DirectFluence.data() + this->Field.CellIndex(band, 0);
-  const double own = direct[cell];
-  double value = own;
+  return direct[cell] > 0.0F ? direct[cell] * this->Shape(direct, cell, point) : 0.0;
+}
+
+double View::Implementation::Shape(
+  const float* means, std::int64_t cell, const Vec3& point) const
+{
+  const Medium& smoke = this->TheScene.Smoke();
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  double exponent = 0.0;
+  double mean = 1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    double low = own;
-    double high = own;
-    double from = centre[axis];
-    double to = centre[axis];
-    if (this->Open(cell, axis, 0))
+    std::array<double, 2> value = { means[cell], means[cell] };
+    std::array<double, 2> place = { centre[axis], centre[axis] };
+    for (int side = 0; side < 2; ++side)
     {
-      const std::int64_t other = smoke.Neighbour(cell, axis, 0);
-      low = direct[other];
-      from = smoke.CellCentre(other)[axis];
+      if (!this->Open(cell, axis, side))
+      {
+        continue;
+      }
+      const std::int64_t other = smoke.Neighbour(cell, axis, side);
+      if (means[other] > 0.0F)
+      {
+        value[side] = means[other];
+        place[side] = smoke.CellCentre(other)[axis];
+      }
     }
-    if (this->Open(cell, axis, 1))
+    if (place[1] > place[0])
     {
-      const std::int64_t other = smoke.Neighbour(cell, axis, 1);
-      high = direct[other];
-      to = smoke.CellCentre(other)[axis];
-    }
-    if (to > from)
-    {
-      value += (high - low) / (to - from) * (point[axis] - centre[axis]);
+      const double steepest = SteepestChange / size[axis];
+      const double slope = std::clamp(
+        std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
+      exponent += slope * (point[axis] - centre[axis]);
+      const double half = 0.5 * slope * size[axis];
+      mean *= std::abs(half) < 1e-3 ? 1.0 + half * half / 6.0 : std::sinh(half) / half;
     }
   }
-  return std::clamp(value, 0.0, 4.0 * own);
+  return std::exp(exponent) / mean;
 }
 
 void View::Implementation::AddMultiple(
-  std::int64_t cell, const Vec3& point, int band, float weight, Lanes& sum) const
+  std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const
 {
-  const Medium& smoke = this->TheScene.Smoke();
-  const Lanes* multiple = this->Field.MultipleFluence.data() + this->Field.CellIndex(band, 0);
-  const Vec3 centre = smoke.CellCentre(cell);
-  Add(sum, multiple[cell], weight);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::int64_t low = cell;
-    std::int64_t high = cell;
-    double from = centre[axis];
-    double to = centre[axis];
-    if (this->Open(cell, axis, 0))
-    {
-      low = smoke.Neighbour(cell, axis, 0);
-      from = smoke.CellCentre(low)[axis];
-    }
-    if (this->Open(cell, axis, 1))
-    {
-      high = smoke.Neighbour(cell, axis, 1);
-      to = smoke.CellCentre(high)[axis];
-    }
-    if (to > from)
-    {
-      const auto slope =
-        static_cast<float>(weight * (point[axis] - centre[axis]) / (to - from));
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        sum.Value[batch] +=
-          slope * (multiple[high].Value[batch] - multiple[low].Value[batch]);
-      }
-    }
-  }
+  const std::size_t first = this->Field.CellIndex(band, 0);
+  const float* means = this->MultipleMean.data() + first;
+  const double shape = means[cell] > 0.0F ? this->Shape(means, cell, point) : 1.0;
+  Add(sum, this->Field.MultipleFluence[first + cell], static_cast<float>(weight * shape));
 }
 
 int View::Implementation::PartEnds(const LightGroup& light, const Vec3& origin,
@@ -466,8 +463,7 @@ RayLight View::TraceVeil(
         const Vec3 point = origin + (segment.Begin + mean) * direction;
         const double weight = scatter * ahead * lost;
         light.VeilDirect += weight * self.SmoothDirect(segment.Cell, point, band);
-        self.AddMultiple(
-          segment.Cell, point, band, static_cast<float>(weight), light.VeilMultiple);
+        self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
         if (const Implementation::NearCell* near = self.Near(segment.Cell))
         {
           light.VeilDirect += ahead *
