@@ -124,7 +124,7 @@ double BandWeight(const View& view, int band)
   return view.TheScene().Bands() == 1 ? 1.0 : PhotopicWeights[band];
 }
 
-/// Veil and optical depth over the plate, in one band. Far from the plate the smoke's light varies
+/// Veil over the plate, in one band. Far from the plate the smoke's light varies
 /// slowly over it and is interpolated between three by three rays. Close to the plate the smoke glows
 /// in the pattern's shape, so that each column and row of it gets rays of its own.
 class PlateField
@@ -170,14 +170,13 @@ public:
     }
   }
 
-  /// Adds weight times the veil at a place to the batches; returns the optical depth there.
-  double Add(const glm::dvec2& place, double weight, Lanes& veil) const
+  /// Adds weight times the veil at a place to the batches.
+  void Add(const glm::dvec2& place, double weight, Lanes& veil) const
   {
     const auto u = Quadratic(place.x);
     const auto v = Quadratic(place.y);
     const Lanes& near = this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() +
       this->Columns_.Of(place.x)];
-    double depth = 0.0;
     double steady = 0.0;
     Lanes far;
     for (int j = 0; j < 3; ++j)
@@ -186,7 +185,6 @@ public:
       {
         const double share = u[i] * v[j];
         const RayLight& light = this->Far_[j][i];
-        depth += share * light.OpticalDepth;
         steady += share * light.VeilDirect;
         for (int batch = 0; batch < Batches; ++batch)
         {
@@ -199,7 +197,6 @@ public:
       veil[batch] +=
         static_cast<float>(weight) * (static_cast<float>(steady) + far[batch] + near[batch]);
     }
-    return std::max(0.0, depth);
   }
 
 private:
@@ -211,14 +208,8 @@ private:
     const double distance = glm::length(to);
     const Vec3 direction = to / distance;
     const double border = std::max(0.0, distance - this->Reach_);
-    if (!far)
-    {
-      return view.TraceVeil(eye, direction, border, distance, band);
-    }
-    RayLight light = view.TraceVeil(eye, direction, 0.0, border, band);
-    light.OpticalDepth += view.TheScene().ExtinctionScale(band) *
-      view.TheScene().Smoke().OpticalDepth(eye, direction, border, distance);
-    return light;
+    return far ? view.TraceVeil(eye, direction, 0.0, border, band)
+               : view.TraceVeil(eye, direction, border, distance, band);
   }
 
   const Columns& Columns_;
@@ -468,7 +459,11 @@ SignMeasurement MeasureSign(
       }
       Sample& sample = samples[index++];
       const double weight = BandWeight(view, band);
-      const double depth = field.Add(piece.Place, weight, sample.Light);
+      field.Add(piece.Place, weight, sample.Light);
+      const Vec3 way = piece.Point - eye;
+      const double distance = glm::length(way);
+      const double depth = view.TheScene().ExtinctionScale(band) *
+        view.TheScene().Smoke().OpticalDepth(eye, way / distance, 0.0, distance);
       Lanes reflected;
       const Vec3 towards = glm::normalize(eye - piece.Point);
       const double luminance =

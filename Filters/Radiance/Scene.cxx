@@ -134,11 +134,11 @@ Scene::Scene(SceneDescription description)
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
   const Vec3 size = this->Upper_ - this->Lower_;
-  this->Shapes_ =
-    Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
   const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   this->Lights_ = EmitterSet(
     std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
+  this->Shapes_ =
+    Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
 }
 
 } // namespace smokevis
