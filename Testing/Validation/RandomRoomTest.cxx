@@ -18,8 +18,8 @@ Estimate ReferenceContrast(const Solved& solved, const Vec3& eye, std::uint64_t 
   const ReferenceIntegrator reference(*solved.TheScene);
   const Sign& sign = solved.TheScene->Lights().Signs()[0];
   const std::vector<EmitterCell>& cells = solved.TheScene->Lights().Cells();
-  constexpr int Rows = 3;
-  constexpr int Columns = 2;
+  constexpr int Rows = 9;
+  constexpr int Columns = 4;
   double sum = 0.0;
   double square = 0.0;
   double noise = 0.0;
@@ -95,7 +95,7 @@ void CheckRoom(std::uint64_t seed, std::uint64_t samples)
   report::Relative("veil aside of the sign", veilAside.Mean, lightAside.Veil(), 0.01,
     std::hypot(veilAside.StandardError, StandardError(lightAside.VeilMultiple)));
 
-  const Estimate contrast = ReferenceContrast(solved, room.Eye, samples / 10);
+  const Estimate contrast = ReferenceContrast(solved, room.Eye, samples / 40);
   const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{ 0.0 });
   report::Absolute("contrast", contrast.Mean, sign.Contrast, 0.005,
     std::hypot(contrast.StandardError, sign.ContrastError));
