@@ -9,11 +9,11 @@ namespace smokevis
 /// Orthonormal frame of a view and the part of its image plane that the picture covers.
 struct Camera
 {
-  Vec3 Position{ 0.0 };
+  Vec3 Position{0.0};
   /// Unit vectors.
-  Vec3 Forward{ 1.0, 0.0, 0.0 };
-  Vec3 Right{ 0.0, -1.0, 0.0 };
-  Vec3 Up{ 0.0, 0.0, 1.0 };
+  Vec3 Forward{1.0, 0.0, 0.0};
+  Vec3 Right{0.0, -1.0, 0.0};
+  Vec3 Up{0.0, 0.0, 1.0};
   /// Tangents of the angles from the forward direction to the edges of the picture.
   double Left = -1.0, RightEdge = 1.0, Bottom = -1.0, Top = 1.0;
   /// Pixels.
@@ -31,7 +31,8 @@ struct Camera
   static Camera FramePlate(const Vec3& position, const std::array<Vec3, 4>& corners,
     const Vec3& viewUp, double margin, int width, int height);
 
-  /// Direction (unit) through the point (x, y) of the picture, in pixels from its lower left corner.
+  /// Direction (unit) through the point (x, y) of the picture, in pixels from its lower left
+  /// corner.
   Vec3 Direction(double x, double y) const;
 };
 

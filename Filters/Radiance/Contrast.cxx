@@ -12,7 +12,7 @@ namespace
 /// Samples of the plate along its longer side, at least.
 constexpr double SamplesAcross = 8.0;
 /// Gauss-Legendre nodes on (0, 1).
-constexpr std::array<double, 3> GaussNodes = { 0.11270166537925831, 0.5, 0.88729833462074169 };
+constexpr std::array<double, 3> GaussNodes = {0.11270166537925831, 0.5, 0.88729833462074169};
 /// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
 constexpr std::size_t MostColumns = 16;
 
@@ -51,8 +51,8 @@ std::array<double, 3> Quadratic(double t)
   const double a = GaussNodes[0];
   const double b = GaussNodes[1];
   const double c = GaussNodes[2];
-  return { (t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
-    (t - a) * (t - b) / ((c - a) * (c - b)) };
+  return {(t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
+    (t - a) * (t - b) / ((c - a) * (c - b))};
 }
 
 /// Columns (or rows) of a sign's pattern along one edge of the plate.
@@ -74,7 +74,7 @@ struct Columns
     }
     if (this->Ends.size() > MostColumns + 1)
     {
-      this->Ends = { 0.0, 1.0 };
+      this->Ends = {0.0, 1.0};
     }
     this->Widest = 0.0;
     for (std::size_t i = 1; i < this->Ends.size(); ++i)
@@ -87,7 +87,7 @@ struct Columns
   std::size_t Of(double t) const
   {
     return std::upper_bound(this->Ends.begin() + 1, this->Ends.end() - 1, t) -
-      (this->Ends.begin() + 1);
+           (this->Ends.begin() + 1);
   }
   /// The two Gauss points of a column.
   double Node(std::size_t column, int index) const
@@ -100,7 +100,7 @@ struct Columns
 Vec3 OnPlate(const Sign& sign, double u, double v)
 {
   return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +
-    v * (sign.Corners[3] - sign.Corners[0]);
+         v * (sign.Corners[3] - sign.Corners[0]);
 }
 
 glm::dvec2 PlaceOnPlate(const Sign& sign, const Vec3& point)
@@ -108,7 +108,7 @@ glm::dvec2 PlaceOnPlate(const Sign& sign, const Vec3& point)
   const Vec3 u = sign.Corners[1] - sign.Corners[0];
   const Vec3 v = sign.Corners[3] - sign.Corners[0];
   const Vec3 from = point - sign.Corners[0];
-  return { glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v) };
+  return {glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v)};
 }
 
 /// Angle that the segment between two points spans at the eye [rad].
@@ -125,26 +125,23 @@ double BandWeight(const View& view, int band)
 }
 
 /// Veil over the plate, in one band. Far from the plate the smoke's light varies
-/// slowly over it and is interpolated between three by three rays. Close to the plate the smoke glows
-/// in the pattern's shape, so that each column and row of it gets rays of its own.
+/// slowly over it and is interpolated between three by three rays. Close to the plate the smoke
+/// glows in the pattern's shape, so that each column and row of it gets rays of its own.
 class PlateField
 {
 public:
   PlateField(const View& view, const Sign& sign, const Vec3& eye, int band, const Columns& columns,
     const Columns& rows)
-    : Columns_(columns)
-    , Rows_(rows)
+      : Columns_(columns), Rows_(rows)
   {
     // The pattern blurs over a distance of about its period.
-    this->Reach_ = 2.0 *
-      std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
-        rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+    this->Reach_ = 2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+                           rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
     for (int j = 0; j < 3; ++j)
     {
       for (int i = 0; i < 3; ++i)
       {
-        this->Far_[j][i] =
-          this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
+        this->Far_[j][i] = this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
       }
     }
     this->Near_.resize(columns.Count() * rows.Count());
@@ -153,12 +150,12 @@ public:
       for (std::size_t column = 0; column < columns.Count(); ++column)
       {
         Lanes& mean = this->Near_[row * columns.Count() + column];
-        for (const int j : { 0, 1 })
+        for (const int j : {0, 1})
         {
-          for (const int i : { 0, 1 })
+          for (const int i : {0, 1})
           {
-            const RayLight light = this->Trace(
-              view, sign, eye, band, columns.Node(column, i), rows.Node(row, j), false);
+            const RayLight light =
+              this->Trace(view, sign, eye, band, columns.Node(column, i), rows.Node(row, j), false);
             for (int batch = 0; batch < Batches; ++batch)
             {
               mean[batch] +=
@@ -175,8 +172,8 @@ public:
   {
     const auto u = Quadratic(place.x);
     const auto v = Quadratic(place.y);
-    const Lanes& near = this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() +
-      this->Columns_.Of(place.x)];
+    const Lanes& near =
+      this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() + this->Columns_.Of(place.x)];
     double steady = 0.0;
     Lanes far;
     for (int j = 0; j < 3; ++j)
@@ -200,7 +197,8 @@ public:
   }
 
 private:
-  /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of that.
+  /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of
+  /// that.
   RayLight Trace(const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v,
     bool far) const
   {
@@ -276,8 +274,8 @@ std::vector<Piece> CutPlate(const View& view, const Sign& sign, const Vec3& eye,
           const double solid = area * glm::dot(to, normal) / (square * std::sqrt(square));
           if (solid > 0.0)
           {
-            pieces.push_back({ cell, point, solid, PlaceOnPlate(sign, point),
-              Sees(view, eye, point, cell) });
+            pieces.push_back(
+              {cell, point, solid, PlaceOnPlate(sign, point), Sees(view, eye, point, cell)});
           }
         }
       }
@@ -286,8 +284,8 @@ std::vector<Piece> CutPlate(const View& view, const Sign& sign, const Vec3& eye,
   return pieces;
 }
 
-/// Whether a cell counts as lit: brighter, by itself, than half the brightest of its sign. A sign that
-/// only reflects is judged by its reflectance.
+/// Whether a cell counts as lit: brighter, by itself, than half the brightest of its sign. A sign
+/// that only reflects is judged by its reflectance.
 std::vector<bool> LitCells(const View& view, const Sign& sign)
 {
   const EmitterSet& lights = view.TheScene().Lights();
@@ -295,7 +293,7 @@ std::vector<bool> LitCells(const View& view, const Sign& sign)
   std::vector<double> brightness(lights.Cells().size(), 0.0);
   double brightest = 0.0;
   double darkest = 1e300;
-  for (const bool reflecting : { false, true })
+  for (const bool reflecting : {false, true})
   {
     for (const std::size_t cell : sign.Cells)
     {
@@ -318,8 +316,7 @@ std::vector<bool> LitCells(const View& view, const Sign& sign)
   return lit;
 }
 
-Moments MomentsOf(
-  const std::vector<double>& weights, const std::vector<Lanes>& pixels, int leftOut)
+Moments MomentsOf(const std::vector<double>& weights, const std::vector<Lanes>& pixels, int leftOut)
 {
   // Mean of all batches, or of all but one.
   double weight = 0.0;
@@ -347,7 +344,8 @@ Moments MomentsOf(
   return moments;
 }
 
-/// A ratio of the moments with its jackknife estimate, free of first-order bias, and standard error.
+/// A ratio of the moments with its jackknife estimate, free of first-order bias, and standard
+/// error.
 void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
   double& value, double& error)
 {
@@ -391,8 +389,7 @@ SignMeasurement MeasureSign(
     const std::vector<Vec3>& vertices = lights.Cells()[cell].Vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
-      narrowest =
-        std::min(narrowest, Angle(eye, vertices[i], vertices[(i + 1) % vertices.size()]));
+      narrowest = std::min(narrowest, Angle(eye, vertices[i], vertices[(i + 1) % vertices.size()]));
     }
   }
   // Detail that the observer resolves stays apart; where some is finer, pixels of the acuity's size
@@ -452,10 +449,10 @@ SignMeasurement MeasureSign(
       {
         const auto column = std::clamp(static_cast<int>(piece.Place.x * columns), 0, columns - 1);
         const auto row = std::clamp(static_cast<int>(piece.Place.y * rows), 0, rows - 1);
-        const std::size_t pixel = resolved
-          ? index
-          : static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
-        samples.push_back({ piece.Weight, pixel, lit[piece.Cell], Lanes() });
+        const std::size_t pixel =
+          resolved ? index
+                   : static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+        samples.push_back({piece.Weight, pixel, lit[piece.Cell], Lanes()});
       }
       Sample& sample = samples[index++];
       const double weight = BandWeight(view, band);
@@ -463,7 +460,7 @@ SignMeasurement MeasureSign(
       const Vec3 way = piece.Point - eye;
       const double distance = glm::length(way);
       const double depth = view.TheScene().ExtinctionScale(band) *
-        view.TheScene().Smoke().OpticalDepth(eye, way / distance, 0.0, distance);
+                           view.TheScene().Smoke().OpticalDepth(eye, way / distance, 0.0, distance);
       Lanes reflected;
       const Vec3 towards = glm::normalize(eye - piece.Point);
       const double luminance =
@@ -518,8 +515,7 @@ SignMeasurement MeasureSign(
   result.UnlitLuminance =
     seen > litWeight * (1.0 + 1e-12) ? std::max(0.0, (sum - litSum) / (seen - litWeight)) : 0.0;
   const double difference = result.LitLuminance - result.UnlitLuminance;
-  result.WebberContrast =
-    result.UnlitLuminance > 0.0 ? difference / result.UnlitLuminance : 0.0;
+  result.WebberContrast = result.UnlitLuminance > 0.0 ? difference / result.UnlitLuminance : 0.0;
   result.UL924Contrast = result.LitLuminance > 0.0 ? difference / result.LitLuminance : 0.0;
   result.MeanLuminanceError = StandardError(mean) / seen;
 
@@ -531,8 +527,8 @@ SignMeasurement MeasureSign(
   }
   result.MeanLuminance = whole.Mean;
   Jackknife(whole, parts, 0.0, result.Contrast, result.ContrastError);
-  Jackknife(whole, parts, observer.DarkLuminance, result.PerceivedContrast,
-    result.PerceivedContrastError);
+  Jackknife(
+    whole, parts, observer.DarkLuminance, result.PerceivedContrast, result.PerceivedContrastError);
   return result;
 }
 
@@ -555,10 +551,9 @@ double PerceivedContrastBound(
       const std::size_t side =
         view.Field().PatchIndex(band, view.TheScene().SurfacePatches() + cell, 0);
       value[band] = lights.Cells()[cell].Luminance[band] +
-        lights.Cells()[cell].Reflectance[band] / 3.141592653589793 *
-          std::max(0.0,
-            view.Field().DirectIlluminance[side] +
-              Mean(view.Field().MultipleIlluminance[side]));
+                    lights.Cells()[cell].Reflectance[band] / 3.141592653589793 *
+                      std::max(0.0, view.Field().DirectIlluminance[side] +
+                                      Mean(view.Field().MultipleIlluminance[side]));
     }
     luminance = std::max(luminance, Luminance(value, bands));
   }
@@ -569,8 +564,8 @@ double PerceivedContrastBound(
     {
       const Vec3 to = OnPlate(plate, u, v) - eye;
       const double distance = glm::length(to);
-      least = std::min(
-        least, view.TheScene().Smoke().OpticalDepth(eye, to / distance, 0.0, distance));
+      least =
+        std::min(least, view.TheScene().Smoke().OpticalDepth(eye, to / distance, 0.0, distance));
     }
   }
   double scale = view.TheScene().ExtinctionScale(0);

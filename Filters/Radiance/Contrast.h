@@ -45,8 +45,8 @@ struct SignMeasurement
 SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
 
-/// Upper bound of the perceived contrast of a sign from an eye point, from transmittance and geometry
-/// alone (no veil): 0 where the sign faces away.
+/// Upper bound of the perceived contrast of a sign from an eye point, from transmittance and
+/// geometry alone (no veil): 0 where the sign faces away.
 double PerceivedContrastBound(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
 

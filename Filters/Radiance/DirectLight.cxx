@@ -13,13 +13,14 @@ namespace
 {
 
 /// A group of radius r at a distance d acts as one point below this r/d: the error is of the order
-/// (r/d)^2. A leaf has a closed form, so it turns into a point only where that costs digits no more.
+/// (r/d)^2. A leaf has a closed form, so it turns into a point only where that costs digits no
+/// more.
 constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
 /// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
 constexpr double DeepestDepth = 100.0;
-/// One way stands for all ways to a group below this r/d; above it each Gauss point of a leaf has its
-/// own.
+/// One way stands for all ways to a group below this r/d; above it each Gauss point of a leaf has
+/// its own.
 constexpr double PathRatio = 0.1;
 /// A leaf is split in four above this r/d, where three Gauss points an edge do not follow its
 /// transmittance any more.
@@ -36,14 +37,14 @@ constexpr double TrianglePointRatio = 0.1;
 constexpr int TriangleSplits = 4;
 
 /// Gauss-Legendre nodes and weights on (0, 1).
-constexpr std::array<double, 2> Nodes2 = { 0.21132486540518712, 0.78867513459481288 };
-constexpr std::array<double, 3> Nodes3 = { 0.11270166537925831, 0.5, 0.88729833462074169 };
-constexpr std::array<double, 3> Weights3 = { 5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0 };
+constexpr std::array<double, 2> Nodes2 = {0.21132486540518712, 0.78867513459481288};
+constexpr std::array<double, 3> Nodes3 = {0.11270166537925831, 0.5, 0.88729833462074169};
+constexpr std::array<double, 3> Weights3 = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
 Vec3 Bilinear(const std::array<Vec3, 4>& corners, double u, double v)
 {
   return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
-    v * ((1.0 - u) * corners[3] + u * corners[2]);
+         v * ((1.0 - u) * corners[3] + u * corners[2]);
 }
 
 /// Area per unit of u and v there.
@@ -64,17 +65,16 @@ double Langevin(double x)
 double MeanAttenuation(double x, double shift)
 {
   const double size = std::abs(x);
-  const double logarithm = size < 1e-3
-    ? size * size / 6.0
-    : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
+  const double logarithm =
+    size < 1e-3 ? size * size / 6.0 : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
   return std::exp(logarithm - x * shift);
 }
 
 LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
 {
   LightGroup part = leaf;
-  part.Corners = { Bilinear(leaf.Corners, u0, v0), Bilinear(leaf.Corners, u1, v0),
-    Bilinear(leaf.Corners, u1, v1), Bilinear(leaf.Corners, u0, v1) };
+  part.Corners = {Bilinear(leaf.Corners, u0, v0), Bilinear(leaf.Corners, u1, v0),
+    Bilinear(leaf.Corners, u1, v1), Bilinear(leaf.Corners, u0, v1)};
   part.Centre = Bilinear(leaf.Corners, 0.5 * (u0 + u1), 0.5 * (v0 + v1));
   part.Radius = 0.0;
   for (const Vec3& corner : part.Corners)
@@ -100,9 +100,9 @@ double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) con
   // The centre and the corners: a shadow's edge mostly parts them.
   constexpr double inset = 0.04;
   int seen = visible(0.5, 0.5);
-  for (const double u : { inset, 1.0 - inset })
+  for (const double u : {inset, 1.0 - inset})
   {
-    for (const double v : { inset, 1.0 - inset })
+    for (const double v : {inset, 1.0 - inset})
     {
       seen += visible(u, v);
     }
@@ -122,15 +122,14 @@ double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) con
   return static_cast<double>(seen) / (ShadowEdge * ShadowEdge);
 }
 
-DirectLight::Path DirectLight::SamplePath(
-  const LightGroup& group, const Receiver& receiver) const
+DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receiver& receiver) const
 {
   const Vec3& point = receiver.Point;
   const Vec3 to = group.Centre - point;
   const double distance = glm::length(to);
   if (!(distance > 0.0))
   {
-    return { 0.0, 1.0 };
+    return {0.0, 1.0};
   }
   const double depth = this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
   double least = this->Scene_.ExtinctionScale(0);
@@ -146,10 +145,10 @@ DirectLight::Path DirectLight::SamplePath(
   else if (!receiver.Clear)
   {
     visible = group.Radius < 0.05 * distance
-      ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
-      : this->VisibleShare(group, point);
+                ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
+                : this->VisibleShare(group, point);
   }
-  return { depth / distance, visible };
+  return {depth / distance, visible};
 }
 
 bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
@@ -171,8 +170,8 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   return this->VisibleShare(root, centre) == 1.0;
 }
 
-void DirectLight::AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
-  Spectrum& sum) const
+void DirectLight::AddPoint(
+  const LightGroup& group, const Receiver& receiver, const Path& path, Spectrum& sum) const
 {
   const Vec3 to = group.Centre - receiver.Point;
   const double square = glm::dot(to, to);
@@ -194,19 +193,18 @@ void DirectLight::AddPoint(const LightGroup& group, const Receiver& receiver, co
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     sum[band] += factor * group.Intensity[band] *
-      std::exp(-this->Scene_.ExtinctionScale(band) * path.MeanExtinction * distance);
+                 std::exp(-this->Scene_.ExtinctionScale(band) * path.MeanExtinction * distance);
   }
 }
 
-void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, const Path& path,
-  Spectrum& sum) const
+void DirectLight::AddLeaf(
+  const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const
 {
   const Vec3& point = receiver.Point;
   const std::array<Vec3, 4>& corners = leaf.Corners;
-  const double closed = receiver.Normal
-    ? ProjectedSolidAngle(point, *receiver.Normal, corners)
-    : SolidAngle(point, corners[0], corners[1], corners[2]) +
-      SolidAngle(point, corners[0], corners[2], corners[3]);
+  const double closed = receiver.Normal ? ProjectedSolidAngle(point, *receiver.Normal, corners)
+                                        : SolidAngle(point, corners[0], corners[1], corners[2]) +
+                                            SolidAngle(point, corners[0], corners[2], corners[3]);
   // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
   const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
@@ -226,7 +224,7 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
       const double distance = std::sqrt(square);
       const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
       double weight = BilinearArea(corners, u, v) * cosine / square *
-        (few || parted ? 1.0 : Weights3[i] * Weights3[j]);
+                      (few || parted ? 1.0 : Weights3[i] * Weights3[j]);
       if (receiver.Normal)
       {
         weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
@@ -240,9 +238,9 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
       {
         weight *= std::pow(cosine, leaf.Exponent);
       }
-      const double depth = few
-        ? path.MeanExtinction * distance
-        : this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
+      const double depth =
+        few ? path.MeanExtinction * distance
+            : this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
@@ -256,7 +254,7 @@ void DirectLight::AddLeaf(const LightGroup& leaf, const Receiver& receiver, cons
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     sum[band] += (parted ? 1.0 : path.Visible) * leaf.Intensity[band] / leaf.Area * closed *
-      weighted[band] / weights;
+                 weighted[band] / weights;
   }
 }
 
@@ -267,14 +265,14 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   const double height = -glm::dot(to, group.Normal);
   const bool leaf = group.FirstChild < 0;
   if (height <= (leaf ? 0.0 : -group.Radius) ||
-    (receiver.Normal && glm::dot(to, *receiver.Normal) <= -group.Radius))
+      (receiver.Normal && glm::dot(to, *receiver.Normal) <= -group.Radius))
   {
     return;
   }
   const double ratio = group.Radius / glm::length(to);
   // A leaf that the receiver's horizon cuts is split until the rest does not matter.
   const bool cut = leaf && splits > 0 && receiver.Normal && ratio > CutRatio &&
-    std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
+                   std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
   Path own;
   const bool last = leaf && splits == 0;
   if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
@@ -296,9 +294,9 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   }
   else if (leaf)
   {
-    for (const double u : { 0.0, 0.5 })
+    for (const double u : {0.0, 0.5})
     {
-      for (const double v : { 0.0, 0.5 })
+      for (const double v : {0.0, 0.5})
       {
         const LightGroup part = Part(group, u, u + 0.5, v, v + 0.5);
         this->Gather(part, receiver, path, splits - 1, sum);
@@ -317,8 +315,8 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
-  this->Gather(
-    lights.Groups()[lights.Lights()[light]], { point, std::nullopt, clear }, nullptr, LeafSplits, sum);
+  this->Gather(lights.Groups()[lights.Lights()[light]], {point, std::nullopt, clear}, nullptr,
+    LeafSplits, sum);
   return sum;
 }
 
@@ -328,7 +326,7 @@ Spectrum DirectLight::Illuminance(
   const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
   this->Gather(
-    lights.Groups()[lights.Lights()[light]], { point, normal, clear }, nullptr, LeafSplits, sum);
+    lights.Groups()[lights.Lights()[light]], {point, normal, clear}, nullptr, LeafSplits, sum);
   return sum;
 }
 
@@ -340,7 +338,7 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
   const double distance = root.Distance(centre);
-  const bool splits = std::max({ size.x, size.y, size.z }) > BoxRatio * distance;
+  const bool splits = std::max({size.x, size.y, size.z}) > BoxRatio * distance;
   return this->BoxFluence(light, centre, size, BoxSplits, splits && this->Clear(light, cell));
 }
 
@@ -352,7 +350,7 @@ Spectrum DirectLight::BoxFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = std::max({ size.x, size.y, size.z });
+  const double edge = std::max({size.x, size.y, size.z});
   if (splits > 0 && edge > BoxRatio * distance)
   {
     // A box wholly behind the plate gets nothing.
@@ -390,18 +388,16 @@ Spectrum DirectLight::BoxFluence(
   {
     return {};
   }
-  // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own, where
-  // the rest of the light's variation is taken.
+  // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own,
+  // where the rest of the light's variation is taken.
   const Vec3 along = toCentre > root.Radius ? from / toCentre : root.Normal;
   const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-  const double extinction = cell < 0
-    ? 0.0
-    : this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(0);
+  const double extinction =
+    cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(0);
   Vec3 place = middle;
   for (int axis = 0; axis < 3; ++axis)
   {
-    place[axis] -=
-      0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
+    place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
   }
   Spectrum value = this->Fluence(light, place, clear);
   double curvature = 1.0;
@@ -410,14 +406,14 @@ Spectrum DirectLight::BoxFluence(
     // What is left: second derivatives of cos / d^2.
     for (int axis = 0; axis < 3; ++axis)
     {
-      curvature += extent[axis] * extent[axis] *
-        (9.0 * along[axis] * along[axis] - 3.0) / (24.0 * toCentre * toCentre);
+      curvature += extent[axis] * extent[axis] * (9.0 * along[axis] * along[axis] - 3.0) /
+                   (24.0 * toCentre * toCentre);
     }
   }
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     const double k = extinction * this->Scene_.ExtinctionScale(band) /
-      std::max(1e-300, this->Scene_.ExtinctionScale(0));
+                     std::max(1e-300, this->Scene_.ExtinctionScale(0));
     double factor = lit * curvature;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -456,15 +452,12 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   }
   const auto splitAll = [&]
   {
-    const std::array<Vec3, 3> middle = { 0.5 * (corners[0] + corners[1]),
-      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0]) };
+    const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),
+      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0])};
     const double quarter = 0.25 * weight;
-    this->AddTriangle(
-      light, { corners[0], middle[0], middle[2] }, normal, splits - 1, quarter, sum);
-    this->AddTriangle(
-      light, { middle[0], corners[1], middle[1] }, normal, splits - 1, quarter, sum);
-    this->AddTriangle(
-      light, { middle[2], middle[1], corners[2] }, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {corners[0], middle[0], middle[2]}, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {middle[0], corners[1], middle[1]}, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, splits - 1, quarter, sum);
     this->AddTriangle(light, middle, normal, splits - 1, quarter, sum);
   };
   if (splits > 0 && size > TriangleRatio * distance)

@@ -11,15 +11,12 @@ namespace smokevis
 class Scene;
 struct LightGroup;
 
-/// Next-event estimation without noise: the solid angle of the emitter is exact, the transmittance is
-/// exact along lines to it, and both are refined where the emitter is close.
+/// Next-event estimation without noise: the solid angle of the emitter is exact, the transmittance
+/// is exact along lines to it, and both are refined where the emitter is close.
 class DirectLight
 {
 public:
-  explicit DirectLight(const Scene& scene)
-    : Scene_(scene)
-  {
-  }
+  explicit DirectLight(const Scene& scene) : Scene_(scene) {}
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
@@ -58,10 +55,10 @@ private:
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;
-  void AddPoint(const LightGroup& group, const Receiver& receiver, const Path& path,
-    Spectrum& sum) const;
-  void AddLeaf(const LightGroup& leaf, const Receiver& receiver, const Path& path,
-    Spectrum& sum) const;
+  void AddPoint(
+    const LightGroup& group, const Receiver& receiver, const Path& path, Spectrum& sum) const;
+  void AddLeaf(
+    const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum BoxFluence(
     std::size_t light, const Vec3& centre, const Vec3& size, int splits, bool clear) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,

@@ -87,7 +87,7 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::arra
   leaf.Area = first + second;
   leaf.Centre = (first * (corners[0] + corners[1] + corners[2]) +
                   second * (corners[0] + corners[2] + corners[3])) /
-    (3.0 * leaf.Area);
+                (3.0 * leaf.Area);
   for (const Vec3& corner : corners)
   {
     leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
@@ -112,8 +112,7 @@ double LightGroup::Distance(const Vec3& point) const
 }
 
 EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)
-  : Bands_(bands)
-  , Cells_(std::move(cells))
+    : Bands_(bands), Cells_(std::move(cells))
 {
   for (std::size_t index = 0; index < this->Cells_.size(); ++index)
   {
@@ -139,7 +138,7 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
 double EmitterSet::CellFlux(std::size_t cell, int band) const
 {
   return glm::two_pi<double>() * this->Cells_[cell].Luminance[band] * this->Areas_[cell] /
-    (this->Cells_[cell].Exponent + 2.0);
+         (this->Cells_[cell].Exponent + 2.0);
 }
 
 double EmitterSet::Flux(int band) const
@@ -192,8 +191,8 @@ void EmitterSet::FindSigns()
       area += this->Areas_[cell];
     }
     const Vec3 base = vertices[0] + depth / area * sign.Normal;
-    sign.Corners = { base + low.x * u + low.y * v, base + high.x * u + low.y * v,
-      base + high.x * u + high.y * v, base + low.x * u + high.y * v };
+    sign.Corners = {base + low.x * u + low.y * v, base + high.x * u + low.y * v,
+      base + high.x * u + high.y * v, base + low.x * u + high.y * v};
     sign.Centre = 0.5 * (sign.Corners[0] + sign.Corners[2]);
     sign.Radius = 0.5 * glm::length(sign.Corners[2] - sign.Corners[0]);
     this->Signs_.push_back(sign);
@@ -202,8 +201,8 @@ void EmitterSet::FindSigns()
 
 std::vector<int> EmitterSet::JoinCells(bool samePlane) const
 {
-  // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a luminous
-  // panel do not.
+  // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a
+  // luminous panel do not.
   using Key = std::array<double, 8>;
   std::map<Key, int> lights;
   std::vector<int> parent;
@@ -231,10 +230,10 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
       const auto round = [](double value, double step) { return std::round(value / step) * step; };
       const double grid = 1e-4 * std::sqrt(this->Areas_[i]);
       const double step = std::exp2(std::ceil(std::log2(grid)));
-      const Key key = { static_cast<double>(cell.SignId), samePlane ? cell.Exponent : 0.0,
+      const Key key = {static_cast<double>(cell.SignId), samePlane ? cell.Exponent : 0.0,
         samePlane ? round(n.x, 1e-5) : 0.0, samePlane ? round(n.y, 1e-5) : 0.0,
         samePlane ? round(n.z, 1e-5) : 0.0, round(place.x, step), round(place.y, step),
-        round(place.z, step) };
+        round(place.z, step)};
       const auto [known, fresh] = lights.try_emplace(key, lightOf[i]);
       if (!fresh)
       {
@@ -286,7 +285,7 @@ void EmitterSet::BuildLights(double largestLight)
     {
       const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
       lights[lightOf[i]].push_back(
-        MakeLeaf(cell, this->Normals_[i], { vertices[0], vertices[v], vertices[v + 1], last }));
+        MakeLeaf(cell, this->Normals_[i], {vertices[0], vertices[v], vertices[v + 1], last}));
     }
   }
   for (auto& [light, leaves] : lights)
@@ -349,11 +348,11 @@ void EmitterSet::FillGroup(
       most = glm::max(most, at);
     }
   }
-  all.Corners = { all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
-    all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v };
+  all.Corners = {all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
+    all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v};
   const Vec3 extent = high - low;
-  const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2)
-                                        : (extent.y >= extent.z ? 1 : 2);
+  const int axis =
+    extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   const std::size_t middle = begin + (end - begin) / 2;
   std::nth_element(leaves.begin() + begin, leaves.begin() + middle, leaves.begin() + end,
     [axis](const LightGroup& a, const LightGroup& b) { return a.Centre[axis] < b.Centre[axis]; });

@@ -28,10 +28,10 @@ struct Sign
   int Id = 0;
   /// Indices of its cells.
   std::vector<std::size_t> Cells;
-  Vec3 Centre{ 0.0 };
-  Vec3 Normal{ 0.0 };
-  /// Corners of the rectangle around the plate, counter-clockwise from the front, starting where its
-  /// first cell starts.
+  Vec3 Centre{0.0};
+  Vec3 Normal{0.0};
+  /// Corners of the rectangle around the plate, counter-clockwise from the front, starting where
+  /// its first cell starts.
   std::array<Vec3, 4> Corners{};
   /// Radius around Centre that holds the plate [m].
   double Radius = 0.0;
@@ -41,25 +41,26 @@ struct Sign
 struct LightGroup
 {
   /// Centre of the light that it emits, and the radius around it that holds the group [m].
-  Vec3 Centre{ 0.0 };
+  Vec3 Centre{0.0};
   double Radius = 0.0;
-  Vec3 Normal{ 0.0 };
+  Vec3 Normal{0.0};
   double Exponent = 0.0;
   /// Sum of luminance times area [cd]; for a leaf the luminance is this over Area.
   Spectrum Intensity{};
   double Area = 0.0;
   /// First of two children, which follow each other; -1: a leaf.
   int FirstChild = -1;
-  /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the group.
+  /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the
+  /// group.
   std::array<Vec3, 4> Corners{};
 
   /// Distance of a point from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
 };
 
-/// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells of
-/// lamps, that share a plane) form one light, a tree of groups. A luminous body that is large against the
-/// scene, such as a wall, is met by random lines often enough to leave it to them.
+/// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells
+/// of lamps, that share a plane) form one light, a tree of groups. A luminous body that is large
+/// against the scene, such as a wall, is met by random lines often enough to leave it to them.
 class EmitterSet
 {
 public:
@@ -88,8 +89,8 @@ public:
 
 private:
   void FindSigns();
-  /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light of
-  /// their own get -1.
+  /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light
+  /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
   void BuildLights(double largestLight);
   void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);

@@ -16,7 +16,7 @@ public:
   /// @param what   what is wrong, a sentence without its full stop
   /// @param remedy what the user can do, a sentence without its full stop; may be empty
   Error(const std::string& where, const std::string& what, const std::string& remedy = {})
-    : std::runtime_error(where + ": " + what + "." + (remedy.empty() ? "" : " " + remedy + "."))
+      : std::runtime_error(where + ": " + what + "." + (remedy.empty() ? "" : " " + remedy + "."))
   {
   }
 };

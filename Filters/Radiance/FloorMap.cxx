@@ -30,10 +30,10 @@ double JinVisibility(double extinction)
 /// Counts of what was left out.
 struct Skipped
 {
-  std::atomic<std::size_t> Solid{ 0 };
-  std::atomic<std::size_t> Away{ 0 };
-  std::atomic<std::size_t> CutOff{ 0 };
-  std::atomic<std::size_t> Hidden{ 0 };
+  std::atomic<std::size_t> Solid{0};
+  std::atomic<std::size_t> Away{0};
+  std::atomic<std::size_t> CutOff{0};
+  std::atomic<std::size_t> Hidden{0};
 };
 
 bool FacesAway(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
@@ -48,9 +48,9 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
 {
   const EmitterSet& lights = view.TheScene().Lights();
   const Medium& smoke = view.TheScene().Smoke();
-  const Vec3 eye = options.FirstPlace +
-    Vec3(static_cast<double>(place % options.PlacesX) * options.StepX,
-      static_cast<double>(place / options.PlacesX) * options.StepY, 0.0);
+  const Vec3 eye =
+    options.FirstPlace + Vec3(static_cast<double>(place % options.PlacesX) * options.StepX,
+                           static_cast<double>(place / options.PlacesX) * options.StepY, 0.0);
   const std::int64_t cell = smoke.Locate(eye);
   map.JinVisibility[place] =
     static_cast<float>(JinVisibility(cell < 0 ? 0.0 : smoke.Extinction(cell)));
@@ -68,7 +68,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       continue;
     }
     if (options.CutOff > 0.0 &&
-      PerceivedContrastBound(view, sign, eye, options.Eye) < options.CutOff)
+        PerceivedContrastBound(view, sign, eye, options.Eye) < options.CutOff)
     {
       ++skipped.CutOff;
       continue;
@@ -98,8 +98,8 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
   if (map.BestSign[place] >= 0)
   {
     map.Status[place] = map.Visibility[place] < options.ContrastThreshold
-      ? PlaceStatus::BelowThreshold
-      : PlaceStatus::Seen;
+                          ? PlaceStatus::BelowThreshold
+                          : PlaceStatus::Seen;
   }
 }
 
@@ -121,12 +121,12 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   map.Status.assign(places, PlaceStatus::NoSignInView);
   map.BestSign.assign(places, -1);
   for (std::vector<float>* values :
-    { &map.Visibility, &map.VisibilityError, &map.OpticalDepth, &map.JinVisibility })
+    {&map.Visibility, &map.VisibilityError, &map.OpticalDepth, &map.JinVisibility})
   {
     values->assign(places, 0.0F);
   }
   for (std::vector<float>* values :
-    { &map.Contrast, &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction })
+    {&map.Contrast, &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction})
   {
     values->assign(places * map.Signs, 0.0F);
   }
@@ -154,8 +154,9 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
       throw Error("floor map", "the work was stopped");
     }
   }
-  const auto say = [&map](const char* what, std::size_t count, const char* why)
-  { map.Report.push_back({ what, static_cast<double>(count), why }); };
+  const auto say = [&map](const char* what, std::size_t count, const char* why) {
+    map.Report.push_back({what, static_cast<double>(count), why});
+  };
   const std::size_t views = places * map.Signs;
   const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
   say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");

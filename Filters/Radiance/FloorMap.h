@@ -10,7 +10,7 @@ namespace smokevis
 struct FloorMapOptions
 {
   /// First place and steps between places along x and y [m]; z is the height of the eye.
-  Vec3 FirstPlace{ 0.0 };
+  Vec3 FirstPlace{0.0};
   double StepX = 1.0, StepY = 1.0;
   int PlacesX = 12, PlacesY = 8;
   /// Perceived contrast below which a sign counts as invisible.
@@ -35,8 +35,8 @@ struct FloorMap
 {
   std::size_t Signs = 0;
   std::vector<PlaceStatus> Status;
-  /// Largest perceived contrast, its standard error, the sign's id (-1: none), and along the line to
-  /// that sign the optical depth and Jin's visibility 3/K [m] of the mean extinction.
+  /// Largest perceived contrast, its standard error, the sign's id (-1: none), and along the line
+  /// to that sign the optical depth and Jin's visibility 3/K [m] of the mean extinction.
   std::vector<float> Visibility, VisibilityError, OpticalDepth, JinVisibility;
   std::vector<int> BestSign;
   std::vector<float> Contrast, PerceivedContrast, SignLuminance, VisibleFraction;

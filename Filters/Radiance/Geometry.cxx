@@ -17,8 +17,8 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/// Shapes that touch lie within this share of the scene's size: well above the rounding of the single
-/// precision that Embree works in, well below anything that matters to light.
+/// Shapes that touch lie within this share of the scene's size: well above the rounding of the
+/// single precision that Embree works in, well below anything that matters to light.
 constexpr double RelativeTolerance = 1e-5;
 
 struct DeviceRelease
@@ -53,25 +53,25 @@ std::vector<std::array<std::uint32_t, 3>> UsefulTriangles(
     for (int c = 0; c < 3; ++c)
     {
       corner[c] = mesh.Points[triangle[c]];
-      if (!std::isfinite(corner[c].x) || !std::isfinite(corner[c].y) ||
-        !std::isfinite(corner[c].z))
+      if (!std::isfinite(corner[c].x) || !std::isfinite(corner[c].y) || !std::isfinite(corner[c].z))
       {
         throw Error("surface cell " + std::to_string(mesh.TriangleCell[i]),
           "a corner has no finite coordinates", "Check the geometry that is put in");
       }
     }
-    const double longest = std::max({ glm::length(corner[1] - corner[0]),
-      glm::length(corner[2] - corner[1]), glm::length(corner[0] - corner[2]) });
+    const double longest = std::max({glm::length(corner[1] - corner[0]),
+      glm::length(corner[2] - corner[1]), glm::length(corner[0] - corner[2])});
     const double area = glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
     if (!(area > 1e-12 * longest * longest))
     {
       continue;
     }
     std::sort(corner.begin(), corner.end(),
-      [](const Vec3& a, const Vec3& b)
-      { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; });
-    const Key key = { corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y,
-      corner[1].z, corner[2].x, corner[2].y, corner[2].z };
+      [](const Vec3& a, const Vec3& b) {
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+      });
+    const Key key = {corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y, corner[1].z,
+      corner[2].x, corner[2].y, corner[2].z};
     if (known.insert(key).second)
     {
       kept.push_back(triangle);
@@ -87,7 +87,7 @@ struct Geometry::Implementation
 {
   DeviceHandle Device;
   Shapes Surfaces, Emitters;
-  Vec3 Centre{ 0.0 };
+  Vec3 Centre{0.0};
   double Tolerance = 0.0;
 
   void Add(Shapes& shapes, const SurfaceMesh& mesh) const
@@ -98,15 +98,16 @@ struct Geometry::Implementation
       return;
     }
     RTCGeometry geometry = rtcNewGeometry(this->Device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
-      RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.Points.size()));
-    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry,
-      RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX,
+      0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.Points.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX,
+      0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
     if (vertices == nullptr || indices == nullptr)
     {
       rtcReleaseGeometry(geometry);
-      throw Error("surfaces", "Embree has no memory for " + std::to_string(triangles.size()) +
-          " triangles", "Use a coarser model or a machine with more memory");
+      throw Error("surfaces",
+        "Embree has no memory for " + std::to_string(triangles.size()) + " triangles",
+        "Use a coarser model or a machine with more memory");
     }
     for (std::size_t i = 0; i < mesh.Points.size(); ++i)
     {
@@ -121,8 +122,8 @@ struct Geometry::Implementation
       std::copy(triangle.begin(), triangle.end(), indices + 3 * i);
       const Vec3& corner = mesh.Points[triangle[0]];
       shapes.Corner.push_back(corner);
-      shapes.Normal.push_back(glm::normalize(glm::cross(
-        mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
+      shapes.Normal.push_back(glm::normalize(
+        glm::cross(mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
     }
     rtcCommitGeometry(geometry);
     shapes.Tree.reset(rtcNewScene(this->Device.get()));
@@ -151,8 +152,8 @@ struct Geometry::Implementation
     return ray;
   }
 
-  Hit IntersectOne(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
-    double end) const
+  Hit IntersectOne(
+    const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin, double end) const
   {
     Hit hit;
     if (!shapes.Tree || !(end > begin))
@@ -189,8 +190,8 @@ struct Geometry::Implementation
     return std::abs(plate.Distance - surface.Distance) * facing <= this->Tolerance;
   }
 
-  /// The surface and the plate that a ray meets first; a plate farther than the surface is only looked
-  /// for as deep as it can still touch it.
+  /// The surface and the plate that a ray meets first; a plate farther than the surface is only
+  /// looked for as deep as it can still touch it.
   void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
     Hit& surface, Hit& plate) const
   {
@@ -200,8 +201,8 @@ struct Geometry::Implementation
     plate.Emitter = true;
   }
 
-  bool OccludedBy(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
-    double end) const
+  bool OccludedBy(
+    const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin, double end) const
   {
     if (!shapes.Tree || !(end > begin))
     {
@@ -215,19 +216,17 @@ struct Geometry::Implementation
   }
 };
 
-Geometry::Geometry()
-  : Implementation_(std::make_unique<Implementation>())
+Geometry::Geometry() : Implementation_(std::make_unique<Implementation>())
 {
 }
 
-Geometry::Geometry(
-  const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize)
-  : Geometry()
+Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize)
+    : Geometry()
 {
   Implementation& self = *this->Implementation_;
   Vec3 lower(Infinity);
   Vec3 upper(-Infinity);
-  for (const SurfaceMesh* mesh : { &surfaces, &emitters })
+  for (const SurfaceMesh* mesh : {&surfaces, &emitters})
   {
     for (const Vec3& point : mesh->Points)
     {
@@ -276,8 +275,7 @@ Vec3 Geometry::Normal(const Hit& hit) const
   return (hit.Emitter ? self.Emitters : self.Surfaces).Normal[hit.Triangle];
 }
 
-Hit Geometry::Intersect(
-  const Vec3& origin, const Vec3& direction, double begin, double end) const
+Hit Geometry::Intersect(const Vec3& origin, const Vec3& direction, double begin, double end) const
 {
   const Implementation& self = *this->Implementation_;
   Hit surface;
@@ -329,8 +327,8 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     begin = std::max(crossing.Arrive.Distance, crossing.Leave.Distance) + gap;
     // A line meets a plane triangle once: a second time is rounding at grazing incidence.
     const bool again = !crossings.empty() &&
-      crossings.back().Arrive.Triangle == crossing.Arrive.Triangle &&
-      crossings.back().Arrive.Emitter == crossing.Arrive.Emitter;
+                       crossings.back().Arrive.Triangle == crossing.Arrive.Triangle &&
+                       crossings.back().Arrive.Emitter == crossing.Arrive.Emitter;
     if (!again)
     {
       crossings.push_back(crossing);
@@ -338,12 +336,11 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
   }
 }
 
-bool Geometry::Occluded(
-  const Vec3& origin, const Vec3& direction, double begin, double end) const
+bool Geometry::Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const
 {
   const Implementation& self = *this->Implementation_;
   return self.OccludedBy(self.Surfaces, origin, direction, begin, end) ||
-    self.OccludedBy(self.Emitters, origin, direction, begin, end);
+         self.OccludedBy(self.Emitters, origin, direction, begin, end);
 }
 
 bool Geometry::Visible(const Vec3& from, const Vec3& to) const

@@ -42,8 +42,8 @@ struct Crossing
 {
   /// What the line meets coming from its beginning.
   Hit Arrive;
-  /// What it would meet here coming from its end: the same triangle's other side, or the other of two
-  /// shapes that touch, such as a plate on a wall.
+  /// What it would meet here coming from its end: the same triangle's other side, or the other of
+  /// two shapes that touch, such as a plate on a wall.
   Hit Leave;
 };
 

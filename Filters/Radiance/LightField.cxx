@@ -25,8 +25,8 @@ namespace
 /// long. Sweeps that may be drawn in all.
 constexpr int FirstWindow = 3;
 constexpr int MostSweeps = 768;
-/// Share of the tolerance that the standard error of the veil is brought down to, and share that the
-/// drift from window to window is.
+/// Share of the tolerance that the standard error of the veil is brought down to, and share that
+/// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
 /// A field is not scaled by more than this at once.
@@ -41,11 +41,8 @@ class Solver
 {
 public:
   Solver(const Scene& scene, const LightFieldOptions& options, Progress& progress)
-    : Scene_(scene)
-    , Options_(options)
-    , Progress_(progress)
-    , Direct_(scene)
-    , Arena_(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic)
+      : Scene_(scene), Options_(options), Progress_(progress), Direct_(scene),
+        Arena_(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic)
   {
   }
 
@@ -57,8 +54,7 @@ private:
   void SolveMultiple(int band);
   void Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
     std::vector<BatchState>& batches) const;
-  int Settle(
-    const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
   void CheckStop() const
@@ -70,12 +66,11 @@ private:
   }
   void Say(const std::string& what, double count, const std::string& why)
   {
-    this->Field_.Report.push_back({ what, count, why });
+    this->Field_.Report.push_back({what, count, why});
   }
 
   /// Runs body(i) for all i below count, in steps between which progress is reported.
-  template <class Body>
-  void ForAll(std::size_t count, double from, double to, Body&& body);
+  template <class Body> void ForAll(std::size_t count, double from, double to, Body&& body);
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;
@@ -85,8 +80,7 @@ private:
   LightField Field_;
 };
 
-template <class Body>
-void Solver::ForAll(std::size_t count, double from, double to, Body&& body)
+template <class Body> void Solver::ForAll(std::size_t count, double from, double to, Body&& body)
 {
   constexpr std::size_t steps = 50;
   const std::size_t chunk = std::max<std::size_t>(1, (count + steps - 1) / steps);
@@ -99,7 +93,8 @@ void Solver::ForAll(std::size_t count, double from, double to, Body&& body)
         tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 64),
           [&](const tbb::blocked_range<std::size_t>& range)
           {
-            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop(); ++i)
+            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop();
+                 ++i)
             {
               body(i);
             }
@@ -143,7 +138,7 @@ void Solver::SolvePatches()
   };
   std::vector<std::vector<Triangle>> patches(this->Field_.Patches);
   std::size_t first = 0;
-  for (const SurfaceMesh* mesh : { &this->Scene_.Surfaces(), &this->Scene_.EmitterMesh() })
+  for (const SurfaceMesh* mesh : {&this->Scene_.Surfaces(), &this->Scene_.EmitterMesh()})
   {
     for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
     {
@@ -152,9 +147,8 @@ void Solver::SolvePatches()
       {
         triangle.Corners[corner] = mesh->Points[mesh->Triangles[i][corner]];
       }
-      triangle.Area = 0.5 *
-        glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
-          triangle.Corners[2] - triangle.Corners[0]));
+      triangle.Area = 0.5 * glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
+                              triangle.Corners[2] - triangle.Corners[0]));
       if (triangle.Area > 0.0)
       {
         patches[first + mesh->TriangleCell[i]].push_back(triangle);
@@ -169,8 +163,8 @@ void Solver::SolvePatches()
       std::array<Spectrum, 2> sum{};
       for (const Triangle& triangle : patches[patch])
       {
-        const Vec3 normal = glm::normalize(glm::cross(triangle.Corners[1] - triangle.Corners[0],
-          triangle.Corners[2] - triangle.Corners[0]));
+        const Vec3 normal = glm::normalize(glm::cross(
+          triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]));
         const double share = triangle.Area / this->Scene_.PatchArea(patch);
         for (std::size_t light = 0; light < lights; ++light)
         {
@@ -195,14 +189,13 @@ void Solver::SolvePatches()
     });
 }
 
-void Solver::Sweep(
-  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
+void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
 {
   // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
   this->Arena_.execute(
     [&]
     {
-      tbb::parallel_for(std::size_t{ 0 }, batches.size(),
+      tbb::parallel_for(std::size_t{0}, batches.size(),
         [&](std::size_t batch) { sweep.Run(batches[batch], Mix(key) + batch, this->Progress_); });
     });
   this->CheckStop();
@@ -223,7 +216,7 @@ void Solver::Balance(const LineSweep& sweep, int sweeps, std::vector<double>& be
     const double scale =
       kept > 0.0 ? std::clamp(source / kept, SmallestScale, LargestScale) : LargestScale;
     gained += kept > 1e-9 * (source + after) ? 0.0 : 1.0;
-    for (std::vector<float>* values : { &batches[i].Fluence, &batches[i].Illuminance })
+    for (std::vector<float>* values : {&batches[i].Fluence, &batches[i].Illuminance})
     {
       for (float& value : *values)
       {
@@ -262,15 +255,13 @@ int Solver::Settle(
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
     BlockMeans now(batches, this->Field_, band);
-    if (first > 0 &&
-      now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
+    if (first > 0 && now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
     {
       return done;
     }
     if (done + 2 * window > MostSweeps)
     {
-      throw Error("light field",
-        "the light did not settle in " + std::to_string(done) + " sweeps",
+      throw Error("light field", "the light did not settle in " + std::to_string(done) + " sweeps",
         "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that light "
         "is hardly ever lost");
     }
@@ -287,7 +278,7 @@ void Solver::SolveMultiple(int band)
   const Medium& smoke = this->Scene_.Smoke();
   const EmitterSet& lights = this->Scene_.Lights();
   const bool scatters = this->Scene_.Albedo() > 0.0 && smoke.MaximumExtinction() > 0.0F &&
-    this->Scene_.ExtinctionScale(band) > 0.0;
+                        this->Scene_.ExtinctionScale(band) > 0.0;
   bool reflects = false;
   for (std::size_t patch = 0; patch < this->Field_.Patches && !reflects; ++patch)
   {
@@ -330,7 +321,8 @@ void Solver::SolveMultiple(int band)
     for (; done < until; ++done)
     {
       this->Sweep(sweep, batches, key + done);
-      this->Progress_.Report(DirectShare + SettleShare +
+      this->Progress_.Report(
+        DirectShare + SettleShare +
         (0.95 - DirectShare - SettleShare) * (1.0 - std::exp(-0.02 * (done - settling))));
     }
     error = probes.RelativeError(batches);
@@ -421,8 +413,7 @@ LightField Solver::Run()
       continue;
     }
     std::copy_n(this->Field_.MultipleFluence.begin() + this->Field_.CellIndex(same, 0),
-      this->Field_.Cells,
-      this->Field_.MultipleFluence.begin() + this->Field_.CellIndex(band, 0));
+      this->Field_.Cells, this->Field_.MultipleFluence.begin() + this->Field_.CellIndex(band, 0));
     std::copy_n(this->Field_.MultipleIlluminance.begin() + this->Field_.PatchIndex(same, 0, 0),
       2 * this->Field_.Patches,
       this->Field_.MultipleIlluminance.begin() + this->Field_.PatchIndex(band, 0, 0));
@@ -435,8 +426,7 @@ LightField Solver::Run()
 
 } // namespace
 
-LightField SolveLightField(
-  const Scene& scene, const LightFieldOptions& options, Progress& progress)
+LightField SolveLightField(const Scene& scene, const LightFieldOptions& options, Progress& progress)
 {
   return Solver(scene, options, progress).Run();
 }

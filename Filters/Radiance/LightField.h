@@ -27,7 +27,8 @@ struct LightFieldOptions
   int Threads = 0;
 };
 
-/// Plain result of the solver. Patches are surface cells, then emitter cells; sides are front, back.
+/// Plain result of the solver. Patches are surface cells, then emitter cells; sides are front,
+/// back.
 struct LightField
 {
   int Bands = 1;
@@ -52,6 +53,7 @@ struct LightField
 };
 
 /// Solves the radiative transfer equation for the scene. Throws Error, also when stopped.
-LightField SolveLightField(const Scene& scene, const LightFieldOptions& options, Progress& progress);
+LightField SolveLightField(
+  const Scene& scene, const LightFieldOptions& options, Progress& progress);
 
 } // namespace smokevis

@@ -18,8 +18,8 @@ constexpr double CrossingsPerSweep = 1.5;
 constexpr std::size_t FewestLines = 512;
 constexpr double MostLinesForPatches = 20000.0;
 
-/// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface with
-/// a cosine-distributed direction.
+/// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface
+/// with a cosine-distributed direction.
 void DrawLine(const Vec3& lower, const Vec3& upper, const std::array<double, 4>& random,
   Vec3& origin, Vec3& direction, double& length)
 {
@@ -59,12 +59,8 @@ void DrawLine(const Vec3& lower, const Vec3& upper, const std::array<double, 4>&
 } // namespace
 
 BatchState::BatchState(std::size_t cells, std::size_t sides)
-  : Fluence(cells, 0.0F)
-  , Illuminance(sides, 0.0F)
-  , FluenceSum(cells, 0.0F)
-  , IlluminanceSum(sides, 0.0F)
-  , FluenceTally(cells)
-  , IlluminanceTally(sides)
+    : Fluence(cells, 0.0F), Illuminance(sides, 0.0F), FluenceSum(cells, 0.0F),
+      IlluminanceSum(sides, 0.0F), FluenceTally(cells), IlluminanceTally(sides)
 {
 }
 
@@ -89,11 +85,9 @@ struct LineSweep::Buffers
 };
 
 LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
-  : Scene_(scene)
-  , DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
-  , DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0))
-  , Band_(band)
-  , Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>())))
+    : Scene_(scene), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
+      DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
+      Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>())))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
@@ -148,14 +142,13 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
   this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
 }
 
-float LineSweep::Outgoing(
-  const BatchState& state, const Hit& hit, const Vec3& direction) const
+float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const
 {
   const std::size_t patch = this->Scene_.Patch(hit);
   const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
   const std::size_t side = 2 * patch + hit.Side;
   float radiance = static_cast<float>(reflectance / glm::pi<double>()) *
-    (this->DirectIlluminance_[side] + state.Illuminance[side]);
+                   (this->DirectIlluminance_[side] + state.Illuminance[side]);
   if (hit.Emitter && hit.Side == 0)
   {
     const EmitterSet& lights = this->Scene_.Lights();
@@ -164,8 +157,9 @@ float LineSweep::Outgoing(
     {
       const EmitterCell& emitter = lights.Cells()[cell];
       const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
-      radiance += static_cast<float>(emitter.Luminance[this->Band_] *
-        (emitter.Exponent > 0.0 ? std::pow(cosine, emitter.Exponent) : 1.0));
+      radiance +=
+        static_cast<float>(emitter.Luminance[this->Band_] *
+                           (emitter.Exponent > 0.0 ? std::pow(cosine, emitter.Exponent) : 1.0));
     }
   }
   return radiance;
@@ -219,13 +213,13 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
   {
     const std::int64_t cell = buffers.Cell[i];
     buffers.Source[i] = this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) +
-      (this->Emission_.empty() ? 0.0F : this->Emission_[cell]);
+                        (this->Emission_.empty() ? 0.0F : this->Emission_[cell]);
     const float depth = this->Extinction_[cell] * buffers.Length[i];
     const float transmittance = std::exp(-depth);
     buffers.Transmittance[i] = transmittance;
     buffers.Escape[i] = depth < 0.01F
-      ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
-      : (1.0F - transmittance) / depth;
+                          ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
+                          : (1.0F - transmittance) / depth;
   }
 
   const auto arrive = [&](const Hit& hit, float radiance)
@@ -240,8 +234,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
       const float excess = radiance - buffers.Source[i];
-      buffers.Integral[i] =
-        buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      buffers.Integral[i] = buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
       radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
     }
     if (part < crossings)
@@ -256,8 +249,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
     for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
     {
       const float excess = radiance - buffers.Source[i];
-      buffers.Integral[i] +=
-        buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      buffers.Integral[i] += buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
       radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
     }
     if (part > 0)
@@ -275,12 +267,11 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
   }
 }
 
-void LineSweep::Run(
-  BatchState& state, std::uint64_t key, const Progress& progress) const
+void LineSweep::Run(BatchState& state, std::uint64_t key, const Progress& progress) const
 {
-  // The tallies measure by how much the radiance differs from that of a reference field: lengths and
-  // hits have known expectations, so this leaves the mean as it is and takes their scatter away. The
-  // reference must not know of this sweep's lines.
+  // The tallies measure by how much the radiance differs from that of a reference field: lengths
+  // and hits have known expectations, so this leaves the mean as it is and takes their scatter
+  // away. The reference must not know of this sweep's lines.
   std::vector<float> fluenceReference = state.Fluence;
   std::vector<float> illuminanceReference = state.Illuminance;
   if (state.Counted > 0)
@@ -306,20 +297,20 @@ void LineSweep::Run(
     Vec3 direction;
     double length = 0.0;
     DrawLine(this->Lower_, this->Upper_, points.Point(line), origin, direction, length);
-    this->TraceLine(state, fluenceReference, illuminanceReference, origin, direction, length, state,
-      buffers);
+    this->TraceLine(
+      state, fluenceReference, illuminanceReference, origin, direction, length, state, buffers);
   }
 
-  // All directed lines through a convex body measure pi times its surface. Each line drawn serves in
-  // both of its directions.
+  // All directed lines through a convex body measure pi times its surface. Each line drawn serves
+  // in both of its directions.
   const Vec3 size = this->Upper_ - this->Lower_;
   const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   const double weight = glm::pi<double>() * box / (2.0 * static_cast<double>(this->Lines_));
   const auto cellWeight = static_cast<float>(weight);
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
-    state.Fluence[cell] = fluenceReference[cell] +
-      cellWeight * this->InverseVolume_[cell] * state.FluenceTally[cell];
+    state.Fluence[cell] =
+      fluenceReference[cell] + cellWeight * this->InverseVolume_[cell] * state.FluenceTally[cell];
   }
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
@@ -327,7 +318,7 @@ void LineSweep::Run(
     if (area > 0.0)
     {
       state.Illuminance[side] = illuminanceReference[side] +
-        static_cast<float>(weight / area) * state.IlluminanceTally[side];
+                                static_cast<float>(weight / area) * state.IlluminanceTally[side];
     }
   }
   ++state.Counted;
@@ -345,12 +336,12 @@ double LineSweep::FirstSource() const
     const double emission =
       this->Emission_.empty() ? 0.0 : 4.0 * glm::pi<double>() * this->Emission_[cell];
     power += this->Extinction_[cell] / this->InverseVolume_[cell] *
-      (this->Scene_.Albedo() * this->DirectFluence_[cell] + emission);
+             (this->Scene_.Albedo() * this->DirectFluence_[cell] + emission);
   }
   for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
   {
     power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-      this->Scene_.PatchArea(side / 2) * this->DirectIlluminance_[side];
+             this->Scene_.PatchArea(side / 2) * this->DirectIlluminance_[side];
   }
   const EmitterSet& lights = this->Scene_.Lights();
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
@@ -366,12 +357,12 @@ double LineSweep::LaterSource(const BatchState& state) const
   for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
   {
     power += this->Scene_.Albedo() * this->Extinction_[cell] / this->InverseVolume_[cell] *
-      state.Fluence[cell];
+             state.Fluence[cell];
   }
   for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
   {
     power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-      this->Scene_.PatchArea(side / 2) * state.Illuminance[side];
+             this->Scene_.PatchArea(side / 2) * state.Illuminance[side];
   }
   return power;
 }

@@ -28,8 +28,9 @@ struct BatchState
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
 /// cells, and tallies its path integral in every cell crossed and its arriving radiance on every
-/// surface met. A surface starts the line anew with its own outgoing radiance. Each line serves both
-/// of its directions. (Random-ray method, Tramm et al. 2017; global-line radiosity, Sbert 1997.)
+/// surface met. A surface starts the line anew with its own outgoing radiance. Each line serves
+/// both of its directions. (Random-ray method, Tramm et al. 2017; global-line radiosity, Sbert
+/// 1997.)
 class LineSweep
 {
 public:
@@ -39,13 +40,13 @@ public:
   /// Lines that cross each cell about 1.5 times.
   std::size_t Lines() const { return this->Lines_; }
 
-  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and is
-  /// added to the sums.
+  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
+  /// is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
   void Run(BatchState& state, std::uint64_t key, const Progress& progress) const;
 
-  /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out again of
-  /// direct light, and what flames and large lights emit.
+  /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
+  /// again of direct light, and what flames and large lights emit.
   double FirstSource() const;
   /// Power that they send out again of the light of a state [lm].
   double LaterSource(const BatchState& state) const;

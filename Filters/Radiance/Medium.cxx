@@ -45,8 +45,8 @@ void CheckGrid(const SmokeGrid& grid)
   }
   if (!grid.EmittedLuminance.empty() && grid.EmittedLuminance.size() != cells)
   {
-    throw Error("smoke grid '" + grid.Name + "'",
-      "emitted luminance is not given for every cell", "Give one value a cell, or none at all");
+    throw Error("smoke grid '" + grid.Name + "'", "emitted luminance is not given for every cell",
+      "Give one value a cell, or none at all");
   }
   const auto check = [&](const std::vector<float>& values, const char* quantity)
   {
@@ -78,8 +78,9 @@ int Medium::Grid::Index(int axis, double coordinate) const
   }
   else
   {
-    index = static_cast<int>(
-              std::upper_bound(nodes.begin(), nodes.end(), coordinate) - nodes.begin()) - 1;
+    index =
+      static_cast<int>(std::upper_bound(nodes.begin(), nodes.end(), coordinate) - nodes.begin()) -
+      1;
     index = std::clamp(index, 0, last);
   }
   // The guess can be one off by rounding.
@@ -97,7 +98,7 @@ int Medium::Grid::Index(int axis, double coordinate) const
 bool Medium::Grid::Contains(const Vec3& point) const
 {
   return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
-    glm::all(glm::lessThanEqual(point, this->Upper));
+         glm::all(glm::lessThanEqual(point, this->Upper));
 }
 
 Medium::Medium(std::vector<SmokeGrid> grids)
@@ -144,8 +145,8 @@ Medium::Medium(std::vector<SmokeGrid> grids)
       this->Extinction_.end(), source.Extinction.begin(), source.Extinction.end());
     if (emits)
     {
-      this->EmittedLuminance_.insert(this->EmittedLuminance_.end(),
-        source.EmittedLuminance.begin(), source.EmittedLuminance.end());
+      this->EmittedLuminance_.insert(this->EmittedLuminance_.end(), source.EmittedLuminance.begin(),
+        source.EmittedLuminance.end());
       this->EmittedLuminance_.resize(this->Extinction_.size(), 0.0F);
     }
     this->Grids_.push_back(std::move(grid));
@@ -155,8 +156,7 @@ Medium::Medium(std::vector<SmokeGrid> grids)
     this->Lower_ = this->Upper_ = Vec3(0.0);
     return;
   }
-  this->MaximumExtinction_ =
-    *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
+  this->MaximumExtinction_ = *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
 
   this->Rank_.resize(this->Grids_.size());
   std::iota(this->Rank_.begin(), this->Rank_.end(), 0);
@@ -219,8 +219,7 @@ std::int64_t Medium::Locate(const Vec3& point) const
     const Grid& grid = this->Grids_[rank];
     if (grid.Contains(point))
     {
-      return grid.Cell(
-        { grid.Index(0, point.x), grid.Index(1, point.y), grid.Index(2, point.z) });
+      return grid.Cell({grid.Index(0, point.x), grid.Index(1, point.y), grid.Index(2, point.z)});
     }
   }
   return -1;
@@ -294,9 +293,9 @@ void Medium::WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& directio
     }
     next[axis] = (*plane[axis] - origin[axis]) * inverse[axis];
   }
-  const std::array<std::int64_t, 3> stride = { step[0],
+  const std::array<std::int64_t, 3> stride = {step[0],
     static_cast<std::int64_t>(step[1]) * grid.Size[0],
-    static_cast<std::int64_t>(step[2]) * grid.Size[0] * grid.Size[1] };
+    static_cast<std::int64_t>(step[2]) * grid.Size[0] * grid.Size[1]};
   std::int64_t cell = grid.Cell(index);
   double at = begin;
   for (;;)
@@ -366,7 +365,7 @@ void Medium::ForEachPiece(
     }
     if (leave > enter)
     {
-      intervals.push_back({ enter, leave, static_cast<int>(rank) });
+      intervals.push_back({enter, leave, static_cast<int>(rank)});
     }
   }
   const auto walk = [&](int rank, double from, double to)
@@ -427,7 +426,9 @@ void Medium::Walk(const Vec3& origin, const Vec3& direction, double begin, doubl
 {
   pieces.clear();
   this->ForEachPiece(origin, direction, begin, end,
-    [&pieces](std::int64_t cell, double from, double to) { pieces.push_back({ cell, from, to }); });
+    [&pieces](std::int64_t cell, double from, double to) {
+      pieces.push_back({cell, from, to});
+    });
 }
 
 double Medium::OpticalDepth(
@@ -435,7 +436,8 @@ double Medium::OpticalDepth(
 {
   double depth = 0.0;
   this->ForEachPiece(origin, direction, begin, end,
-    [&](std::int64_t cell, double from, double to) { depth += this->Extinction_[cell] * (to - from); });
+    [&](std::int64_t cell, double from, double to)
+    { depth += this->Extinction_[cell] * (to - from); });
   return depth;
 }
 

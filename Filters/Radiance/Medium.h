@@ -1,4 +1,5 @@
-// The smoke: rectilinear grids of constant-extinction cells, and the exact walk of a ray through them.
+// The smoke: rectilinear grids of constant-extinction cells, and the exact walk of a ray through
+// them.
 #pragma once
 
 #include "Types.h"
@@ -32,8 +33,8 @@ struct Segment
   double End;
 };
 
-/// All smoke of a scene. Cells are numbered through, grid after grid as given, x fastest. Where grids
-/// overlap, the one with the smaller cells counts; outside all grids there is no smoke.
+/// All smoke of a scene. Cells are numbered through, grid after grid as given, x fastest. Where
+/// grids overlap, the one with the smaller cells counts; outside all grids there is no smoke.
 class Medium
 {
 public:
@@ -56,8 +57,8 @@ public:
   Vec3 CellSize(std::int64_t cell) const;
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
-  /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it may
-  /// lie in another grid; -1 where there is none.
+  /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it
+  /// may lie in another grid; -1 where there is none.
   std::int64_t Neighbour(std::int64_t cell, int axis, int side) const;
 
   const Vec3& Lower() const { return this->Lower_; }
@@ -69,19 +70,18 @@ public:
     std::vector<Segment>& pieces) const;
 
   /// Optical depth of the ray between two distances, for extinction as given (633 nm).
-  double OpticalDepth(
-    const Vec3& origin, const Vec3& direction, double begin, double end) const;
+  double OpticalDepth(const Vec3& origin, const Vec3& direction, double begin, double end) const;
 
 private:
   struct Grid
   {
     std::array<std::vector<double>, 3> Nodes;
     /// Cells a metre along each axis where the nodes are evenly spaced, else 0.
-    Vec3 InverseStep{ 0.0 };
+    Vec3 InverseStep{0.0};
     std::array<int, 3> Size{};
     std::int64_t FirstCell = 0;
-    Vec3 Lower{ 0.0 };
-    Vec3 Upper{ 0.0 };
+    Vec3 Lower{0.0};
+    Vec3 Upper{0.0};
     /// Smallest cell volume, by which grids are ranked.
     double Fineness = 0.0;
 
@@ -89,14 +89,14 @@ private:
     std::int64_t Cell(const std::array<int, 3>& index) const
     {
       return this->FirstCell + index[0] +
-        this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
+             this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
     }
     bool Contains(const Vec3& point) const;
   };
 
   template <class Visit>
-  void ForEachPiece(const Vec3& origin, const Vec3& direction, double begin, double end,
-    Visit&& visit) const;
+  void ForEachPiece(
+    const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const;
   template <class Visit>
   static void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction,
     const Vec3& inverse, double begin, double end, Visit&& visit);
@@ -110,8 +110,8 @@ private:
   std::vector<float> Extinction_;
   std::vector<float> EmittedLuminance_;
   float MaximumExtinction_ = 0.0F;
-  Vec3 Lower_{ 0.0 };
-  Vec3 Upper_{ 0.0 };
+  Vec3 Lower_{0.0};
+  Vec3 Upper_{0.0};
 };
 
 } // namespace smokevis

@@ -21,7 +21,7 @@ public:
   void Stop() { this->Stop_.store(true, std::memory_order_relaxed); }
 
 private:
-  std::atomic<bool> Stop_{ false };
+  std::atomic<bool> Stop_{false};
 };
 
 } // namespace smokevis

@@ -22,9 +22,9 @@ constexpr double ToUnit(std::uint64_t word)
   return static_cast<double>(word >> 11) * 0x1.0p-53;
 }
 
-/// Points that fill the four-dimensional unit cube evenly: the additive recurrence with the powers of
-/// the root of x^5 = x + 1 (Roberts 2018), moved by a random shift. Any one point is uniform, so that
-/// means over the sequence have no bias; many together lie more evenly than independent ones.
+/// Points that fill the four-dimensional unit cube evenly: the additive recurrence with the powers
+/// of the root of x^5 = x + 1 (Roberts 2018), moved by a random shift. Any one point is uniform, so
+/// that means over the sequence have no bias; many together lie more evenly than independent ones.
 class EvenPoints
 {
 public:
@@ -40,8 +40,8 @@ public:
   std::array<double, 4> Point(std::uint64_t index) const
   {
     constexpr double root = 1.1673039782614187;
-    constexpr std::array<double, 4> step = { 1.0 / root, 1.0 / (root * root),
-      1.0 / (root * root * root), 1.0 / (root * root * root * root) };
+    constexpr std::array<double, 4> step = {1.0 / root, 1.0 / (root * root),
+      1.0 / (root * root * root), 1.0 / (root * root * root * root)};
     std::array<double, 4> point;
     for (int axis = 0; axis < 4; ++axis)
     {

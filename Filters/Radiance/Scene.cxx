@@ -28,8 +28,9 @@ void CheckDescription(const SceneDescription& description)
     const double scale = description.ExtinctionScale[band];
     if (!(scale >= 0.0) || !std::isfinite(scale))
     {
-      throw Error("scene", "the extinction of band " + std::to_string(band) + " is scaled by " +
-          std::to_string(scale), "Check the wavelengths and the Angstrom exponent");
+      throw Error("scene",
+        "the extinction of band " + std::to_string(band) + " is scaled by " + std::to_string(scale),
+        "Check the wavelengths and the Angstrom exponent");
     }
   }
   if (!(description.Albedo >= 0.0 && description.Albedo <= 1.0))
@@ -82,7 +83,7 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
     mesh.Points.insert(mesh.Points.end(), vertices.begin(), vertices.end());
     for (std::uint32_t v = 2; v < vertices.size(); ++v)
     {
-      mesh.Triangles.push_back({ first, first + v - 1, first + v });
+      mesh.Triangles.push_back({first, first + v - 1, first + v});
       mesh.TriangleCell.push_back(static_cast<std::uint32_t>(cell));
     }
     mesh.CellReflectance.push_back(cells[cell].Reflectance);
@@ -92,8 +93,7 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
 
 } // namespace
 
-Scene::Scene(SceneDescription description)
-  : Description_(std::move(description))
+Scene::Scene(SceneDescription description) : Description_(std::move(description))
 {
   CheckDescription(this->Description_);
   this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
@@ -106,7 +106,7 @@ Scene::Scene(SceneDescription description)
   this->Lower_ = Vec3(infinity);
   this->Upper_ = Vec3(-infinity);
   std::size_t first = 0;
-  for (const SurfaceMesh* mesh : { &this->Description_.Surfaces, &this->EmitterMesh_ })
+  for (const SurfaceMesh* mesh : {&this->Description_.Surfaces, &this->EmitterMesh_})
   {
     for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
     {
@@ -116,7 +116,7 @@ Scene::Scene(SceneDescription description)
       const Vec3& c = mesh->Points[triangle[2]];
       this->PatchArea_[first + mesh->TriangleCell[i]] +=
         0.5 * glm::length(glm::cross(b - a, c - a));
-      for (const Vec3* corner : { &a, &b, &c })
+      for (const Vec3* corner : {&a, &b, &c})
       {
         this->Lower_ = glm::min(this->Lower_, *corner);
         this->Upper_ = glm::max(this->Upper_, *corner);
@@ -135,10 +135,9 @@ Scene::Scene(SceneDescription description)
   }
   const Vec3 size = this->Upper_ - this->Lower_;
   const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  this->Lights_ = EmitterSet(
-    std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
-  this->Shapes_ =
-    Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
+  this->Lights_ =
+    EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
+  this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
 }
 
 } // namespace smokevis

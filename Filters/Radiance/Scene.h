@@ -17,7 +17,7 @@ struct SceneDescription
   /// Colour bands that are solved: 1 (luminance) or 3.
   int Bands = 1;
   /// Extinction of each band relative to the given one, (633 nm / wavelength)^alpha.
-  Spectrum ExtinctionScale = { 1.0, 1.0, 1.0 };
+  Spectrum ExtinctionScale = {1.0, 1.0, 1.0};
   /// Single-scattering albedo of the smoke, 0 to 1.
   double Albedo = 0.3;
   /// Smoke grids; where they overlap the one with the smaller cells counts.
@@ -48,7 +48,10 @@ public:
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
   std::size_t Patches() const { return this->PatchArea_.size(); }
   double PatchArea(std::size_t patch) const { return this->PatchArea_[patch]; }
-  const Spectrum& PatchReflectance(std::size_t patch) const { return this->PatchReflectance_[patch]; }
+  const Spectrum& PatchReflectance(std::size_t patch) const
+  {
+    return this->PatchReflectance_[patch];
+  }
   /// The patch that was hit.
   std::size_t Patch(const Hit& hit) const
   {
@@ -71,8 +74,8 @@ private:
   Geometry Shapes_;
   std::vector<double> PatchArea_;
   std::vector<Spectrum> PatchReflectance_;
-  Vec3 Lower_{ 0.0 };
-  Vec3 Upper_{ 0.0 };
+  Vec3 Lower_{0.0};
+  Vec3 Upper_{0.0};
 };
 
 } // namespace smokevis

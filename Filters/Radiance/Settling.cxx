@@ -11,8 +11,8 @@ namespace
 
 /// Few blocks are known well; more would only show how noise differs from place to place.
 constexpr std::size_t MostBlocks = 16;
-/// Share of the mean light of all blocks that a dark block is given, so that it need not be known to a
-/// share of next to nothing.
+/// Share of the mean light of all blocks that a dark block is given, so that it need not be known
+/// to a share of next to nothing.
 constexpr double DarkShare = 0.1;
 
 double MeanOf(const std::vector<double>& values)
@@ -39,8 +39,7 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 } // namespace
 
-BlockMeans::BlockMeans(
-  const std::vector<BatchState>& batches, const LightField& field, int band)
+BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const LightField& field, int band)
 {
   this->Add(
     batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0));
@@ -48,8 +47,8 @@ BlockMeans::BlockMeans(
     field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0));
 }
 
-void BlockMeans::Add(const std::vector<BatchState>& batches,
-  std::vector<float> BatchState::*sums, const float* direct)
+void BlockMeans::Add(
+  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, const float* direct)
 {
   const std::size_t count = (batches.front().*sums).size();
   const std::size_t parts = std::min(MostBlocks, count);
@@ -103,8 +102,8 @@ double BlockMeans::DriftSince(const BlockMeans& earlier) const
   {
     return 0.0;
   }
-  // Noise alone makes the signal `used` (times 15/13, since its variance comes from 16 batches), give or
-  // take the root of twice that.
+  // Noise alone makes the signal `used` (times 15/13, since its variance comes from 16 batches),
+  // give or take the root of twice that.
   constexpr double spread = (Batches - 1.0) / (Batches - 3.0);
   const double known = std::max(0.0, signal - spread * used);
   return std::sqrt((known + 2.0 * std::sqrt(2.0 * used)) / weights);

@@ -8,8 +8,9 @@
 namespace smokevis
 {
 
-/// Means of a light field over blocks of its cells and patches, a value a batch. Comparing those of two
-/// windows of sweeps tells drift from noise, since the noise shows in the spread of the batches.
+/// Means of a light field over blocks of its cells and patches, a value a batch. Comparing those of
+/// two windows of sweeps tells drift from noise, since the noise shows in the spread of the
+/// batches.
 class BlockMeans
 {
 public:
@@ -17,8 +18,9 @@ public:
   /// From the running means of the batches; the direct light of the band is what it adds to.
   BlockMeans(const std::vector<BatchState>& batches, const LightField& field, int band);
 
-  /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window to this
-  /// one over all light of the block (or over a floor where a block lies in the dark), noise taken out.
+  /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window
+  /// to this one over all light of the block (or over a floor where a block lies in the dark),
+  /// noise taken out.
   double DriftSince(const BlockMeans& earlier) const;
 
 private:

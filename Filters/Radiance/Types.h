@@ -19,8 +19,8 @@ inline constexpr int MaxBands = 3;
 /// One value a band.
 using Spectrum = std::array<double, MaxBands>;
 
-/// Independent batches of the light-field estimate. Sixteen fill one 512-bit register of floats, and
-/// sixteen batches give a standard error that is itself good to 18 %.
+/// Independent batches of the light-field estimate. Sixteen fill one 512-bit register of floats,
+/// and sixteen batches give a standard error that is itself good to 18 %.
 inline constexpr int Batches = 16;
 
 /// One value a batch.
@@ -39,7 +39,7 @@ double StandardError(const Lanes& lanes);
 
 /// Photopic weights of three bands, which turn band luminances into one luminance. The values are
 /// those of the linear sRGB primaries (IEC 61966-2-1), so that equal bands give the same luminance.
-inline constexpr Spectrum PhotopicWeights = { 0.2126, 0.7152, 0.0722 };
+inline constexpr Spectrum PhotopicWeights = {0.2126, 0.7152, 0.0722};
 
 /// Luminance of a spectrum of so many bands (1 or 3).
 inline double Luminance(const Spectrum& value, int bands)

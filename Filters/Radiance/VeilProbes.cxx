@@ -24,13 +24,12 @@ Vec3 SphereDirection(double first, double second)
   const double z = 2.0 * first - 1.0;
   const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
   const double angle = glm::two_pi<double>() * second;
-  return { sine * std::cos(angle), sine * std::sin(angle), z };
+  return {sine * std::cos(angle), sine * std::sin(angle), z};
 }
 
 } // namespace
 
-VeilProbes::VeilProbes(
-  const Scene& scene, const LightField& field, int band, std::uint64_t seed)
+VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed)
 {
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -48,9 +47,9 @@ VeilProbes::VeilProbes(
     const auto random = points.Point(i);
     if (signs.empty())
     {
-      const Vec3 eye = scene.Lower() +
-        Vec3(random[0], random[1], Mix(i + seed) / 1.8446744073709552e19) *
-          (scene.Upper() - scene.Lower());
+      const Vec3 eye =
+        scene.Lower() + Vec3(random[0], random[1], Mix(i + seed) / 1.8446744073709552e19) *
+                          (scene.Upper() - scene.Lower());
       this->Add(scene, field, band, eye, SphereDirection(random[2], random[3]), infinity);
       continue;
     }
@@ -93,20 +92,19 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
   for (const Segment& segment : segments)
   {
     const double depth = scene.Smoke().Extinction(segment.Cell) * scene.ExtinctionScale(band) *
-      (segment.End - segment.Begin);
+                         (segment.End - segment.Begin);
     const double lost = -std::expm1(-depth) * transmittance;
     const double weight = scatter * lost;
-    probe.Pieces.push_back({ segment.Cell, weight });
+    probe.Pieces.push_back({segment.Cell, weight});
     probe.Direct += weight * field.DirectFluence[field.CellIndex(band, segment.Cell)] +
-      (1.0 - scene.Albedo()) * lost * scene.Smoke().EmittedLuminance(segment.Cell);
+                    (1.0 - scene.Albedo()) * lost * scene.Smoke().EmittedLuminance(segment.Cell);
     transmittance -= lost;
   }
   if (end.Found() && length == end.Distance)
   {
     const std::size_t patch = scene.Patch(end);
     probe.Side = 2 * patch + end.Side;
-    probe.SurfaceWeight =
-      transmittance * scene.PatchReflectance(patch)[band] / glm::pi<double>();
+    probe.SurfaceWeight = transmittance * scene.PatchReflectance(patch)[band] / glm::pi<double>();
     probe.Direct +=
       probe.SurfaceWeight * field.DirectIlluminance[field.PatchIndex(band, patch, end.Side)];
   }

@@ -41,7 +41,8 @@ private:
   std::vector<Probe> Probes_;
   /// Added to the light that errors are compared with [cd/m2].
   double Floor_ = 0.0;
-  /// Share of the probes' mean light that is added as well: random lines also look where it is dark.
+  /// Share of the probes' mean light that is added as well: random lines also look where it is
+  /// dark.
   double MeanShare_ = 0.0;
 };
 

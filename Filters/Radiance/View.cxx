@@ -22,21 +22,21 @@ constexpr double NearEdges = 4.0;
 constexpr double SteepestChange = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
-/// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs into
-/// the plate, how many and how much closer to the plate each ends.
+/// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
+/// into the plate, how many and how much closer to the plate each ends.
 constexpr int MostParts = 16;
 constexpr int GradedParts = 2;
 constexpr double Grading = 0.25;
 
-/// A line meets a wall in the border of two cells to single precision only, so that cells inside solids
-/// see a trace of the light outside: less than this share of the mean fluence.
+/// A line meets a wall in the border of two cells to single precision only, so that cells inside
+/// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
 
 /// Gauss-Legendre nodes and weights on (0, 1).
-constexpr std::array<double, 4> GaussNodes = { 0.06943184420297371, 0.33000947820757187,
-  0.66999052179242813, 0.93056815579702629 };
-constexpr std::array<double, 4> GaussWeights = { 0.17392742256872693, 0.32607257743127307,
-  0.32607257743127307, 0.17392742256872693 };
+constexpr std::array<double, 4> GaussNodes = {
+  0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+constexpr std::array<double, 4> GaussWeights = {
+  0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
 
 void Add(Lanes& sum, const Lanes& term, float weight)
 {
@@ -85,9 +85,7 @@ struct View::Implementation
   };
 
   explicit Implementation(const Scene& scene, const LightField& field)
-    : TheScene(scene)
-    , Field(field)
-    , Direct(scene)
+      : TheScene(scene), Field(field), Direct(scene)
   {
     this->MultipleMean.reserve(field.MultipleFluence.size());
     for (const Lanes& lanes : field.MultipleFluence)
@@ -213,13 +211,13 @@ void View::Implementation::FindNearCells()
         }
         const Vec3 centre = smoke.CellCentre(cell);
         const Vec3 size = smoke.CellSize(cell);
-        const double reach = NearEdges * std::max({ size.x, size.y, size.z });
+        const double reach = NearEdges * std::max({size.x, size.y, size.z});
         for (std::size_t light = 0; light < lights.Lights().size(); ++light)
         {
           const LightGroup& root = lights.Groups()[lights.Lights()[light]];
           // Behind a plate there is none of its light.
           if (root.Distance(centre) < reach &&
-            glm::dot(centre - root.Centre, root.Normal) > -root.Radius - glm::length(size))
+              glm::dot(centre - root.Centre, root.Normal) > -root.Radius - glm::length(size))
           {
             nearLights[cell].push_back(static_cast<std::uint32_t>(light));
           }
@@ -231,7 +229,7 @@ void View::Implementation::FindNearCells()
     if (!nearLights[cell].empty())
     {
       this->NearIndex[cell] = static_cast<std::int32_t>(this->NearCells.size());
-      this->NearCells.push_back({ std::move(nearLights[cell]), {}, {}, {} });
+      this->NearCells.push_back({std::move(nearLights[cell]), {}, {}, {}});
     }
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
@@ -306,8 +304,7 @@ double View::Implementation::SmoothDirect(std::int64_t cell, const Vec3& point, 
   return direct[cell] > 0.0F ? direct[cell] * this->Shape(direct, cell, point) : 0.0;
 }
 
-double View::Implementation::Shape(
-  const float* means, std::int64_t cell, const Vec3& point) const
+double View::Implementation::Shape(const float* means, std::int64_t cell, const Vec3& point) const
 {
   const Medium& smoke = this->TheScene.Smoke();
   const Vec3 centre = smoke.CellCentre(cell);
@@ -316,8 +313,8 @@ double View::Implementation::Shape(
   double mean = 1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    std::array<double, 2> value = { means[cell], means[cell] };
-    std::array<double, 2> place = { centre[axis], centre[axis] };
+    std::array<double, 2> value = {means[cell], means[cell]};
+    std::array<double, 2> place = {centre[axis], centre[axis]};
     for (int side = 0; side < 2; ++side)
     {
       if (!this->Open(cell, axis, side))
@@ -334,8 +331,8 @@ double View::Implementation::Shape(
     if (place[1] > place[0])
     {
       const double steepest = SteepestChange / size[axis];
-      const double slope = std::clamp(
-        std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
+      const double slope =
+        std::clamp(std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
       exponent += slope * (point[axis] - centre[axis]);
       const double half = 0.5 * slope * size[axis];
       mean *= std::abs(half) < 1e-3 ? 1.0 + half * half / 6.0 : std::sinh(half) / half;
@@ -363,7 +360,8 @@ int View::Implementation::PartEnds(const LightGroup& light, const Vec3& origin,
   const double close = glm::length(origin + end * direction - light.Centre);
   if (last >= 0.0 && last < 0.3 * first && close < 1.5 * light.Radius)
   {
-    // The ray ends close to the plate, where the light follows the pattern: parts shrink towards it.
+    // The ray ends close to the plate, where the light follows the pattern: parts shrink towards
+    // it.
     int parts = 0;
     for (double height = first; parts + 1 < GradedParts && height * Grading > last;)
     {
@@ -392,11 +390,11 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
   {
     const std::uint32_t light = near.Lights[index];
     const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-    // Equiangular points about the light follow 1/d^2 (Kulla and Fajardo 2012); a light of some size
-    // is no steeper than its radius.
+    // Equiangular points about the light follow 1/d^2 (Kulla and Fajardo 2012); a light of some
+    // size is no steeper than its radius.
     const double middle = glm::dot(root.Centre - origin, direction);
     const double aside = glm::length(origin + middle * direction - root.Centre);
-    const double width = std::max({ aside, 0.5 * root.Radius, 1e-9 });
+    const double width = std::max({aside, 0.5 * root.Radius, 1e-9});
     std::array<double, MostParts + 1> ends;
     const int parts = this->PartEnds(root, origin, direction, begin, end, extinction, ends);
     for (int part = 0; part < parts; ++part)
@@ -421,9 +419,8 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
 }
 
 View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)
-  : Scene_(std::move(scene))
-  , Field_(std::move(field))
-  , Implementation_(std::make_unique<Implementation>(*this->Scene_, *this->Field_))
+    : Scene_(std::move(scene)), Field_(std::move(field)),
+      Implementation_(std::make_unique<Implementation>(*this->Scene_, *this->Field_))
 {
 }
 
@@ -443,7 +440,8 @@ RayLight View::TraceVeil(
   const double albedo = this->Scene_->Albedo();
   const double scatter = albedo / (4.0 * glm::pi<double>());
   RayLight light;
-  light.OpticalDepth = begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
+  light.OpticalDepth =
+    begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
   thread_local std::vector<Segment> segments;
   smoke.Walk(origin, direction, begin, end, segments);
   for (const Segment& segment : segments)
@@ -466,9 +464,8 @@ RayLight View::TraceVeil(
         self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
         if (const Implementation::NearCell* near = self.Near(segment.Cell))
         {
-          light.VeilDirect += ahead *
-            self.NearLight(
-              *near, origin, direction, segment.Begin, segment.End, extinction, band);
+          light.VeilDirect += ahead * self.NearLight(*near, origin, direction, segment.Begin,
+                                        segment.End, extinction, band);
         }
       }
       light.VeilDirect += (1.0 - albedo) * ahead * lost * smoke.EmittedLuminance(segment.Cell);
@@ -478,8 +475,7 @@ RayLight View::TraceVeil(
   return light;
 }
 
-RayLight View::Trace(
-  const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
+RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
 {
   RayLight light = this->TraceVeil(origin, direction, 0.0, hit.Distance, band);
   if (!hit.Found())
@@ -491,16 +487,14 @@ RayLight View::Trace(
   const std::size_t patch = this->Scene_->Patch(hit);
   if (hit.Emitter)
   {
-    light.Surface = transmittance *
-      this->EmitterLuminance(patch - this->Scene_->SurfacePatches(), hit.Side, point, -direction,
-        band, light.SurfaceMultiple);
+    light.Surface = transmittance * this->EmitterLuminance(patch - this->Scene_->SurfacePatches(),
+                                      hit.Side, point, -direction, band, light.SurfaceMultiple);
   }
   else
   {
     const Vec3 front = this->Scene_->Shapes().Normal(hit);
-    light.Surface = transmittance *
-      this->Reflected(patch, hit.Side, point, hit.Side == 0 ? front : -front, band,
-        light.SurfaceMultiple);
+    light.Surface = transmittance * this->Reflected(patch, hit.Side, point,
+                                      hit.Side == 0 ? front : -front, band, light.SurfaceMultiple);
   }
   for (float& value : light.SurfaceMultiple.Value)
   {
@@ -509,8 +503,8 @@ RayLight View::Trace(
   return light;
 }
 
-double View::Reflected(std::size_t patch, int side, const Vec3& point, const Vec3& normal,
-  int band, Lanes& lanes) const
+double View::Reflected(
+  std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band, Lanes& lanes) const
 {
   const double factor = this->Scene_->PatchReflectance(patch)[band] / glm::pi<double>();
   lanes = Lanes();
@@ -528,19 +522,19 @@ double View::Reflected(std::size_t patch, int side, const Vec3& point, const Vec
   return std::max(0.0, factor * direct + Mean(lanes));
 }
 
-double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point,
-  const Vec3& towards, int band, Lanes& lanes) const
+double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
+  int band, Lanes& lanes) const
 {
   const EmitterSet& lights = this->Scene_->Lights();
   const EmitterCell& cell = lights.Cells()[emitter];
   const Vec3 front = lights.CellNormal(emitter);
-  double luminance = this->Reflected(this->Scene_->SurfacePatches() + emitter, side, point,
-    side == 0 ? front : -front, band, lanes);
+  double luminance = this->Reflected(
+    this->Scene_->SurfacePatches() + emitter, side, point, side == 0 ? front : -front, band, lanes);
   if (side == 0)
   {
     const double cosine = std::max(0.0, glm::dot(towards, front));
-    luminance += cell.Luminance[band] *
-      (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
+    luminance +=
+      cell.Luminance[band] * (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
   }
   return luminance;
 }
@@ -559,7 +553,7 @@ bool View::InsideSolid(const Vec3& point) const
     {
       const std::size_t index = this->Field_->CellIndex(band, cell);
       if (this->Field_->DirectFluence[index] + Mean(this->Field_->MultipleFluence[index]) >
-        this->Implementation_->Leak[band])
+          this->Implementation_->Leak[band])
       {
         return false;
       }

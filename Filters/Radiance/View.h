@@ -57,17 +57,18 @@ public:
   /// Luminance that leaves an emitter cell towards a direction (unit, away from the plate), emitted
   /// and reflected [cd/m2], before any smoke.
   /// @param lanes receives the batches of what is reflected of multiply scattered light
-  double EmitterLuminance(
-    std::size_t emitter, int side, const Vec3& point, const Vec3& towards, int band, Lanes& lanes) const;
+  double EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
+    int band, Lanes& lanes) const;
 
-  /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without smoke
-  /// and without light.
+  /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without
+  /// smoke and without light.
   bool InsideSolid(const Vec3& point) const;
 
 private:
   struct Implementation;
 
-  /// Luminance that a side of a patch reflects at a point, and its batches of multiply scattered light.
+  /// Luminance that a side of a patch reflects at a point, and its batches of multiply scattered
+  /// light.
   double Reflected(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
     Lanes& lanes) const;
 

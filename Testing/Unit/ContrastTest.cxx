@@ -21,8 +21,7 @@ SceneDescription Stripes(double high, double low, double scale = 1.0)
   {
     const double y = 0.1 * bar - 0.45;
     EmitterCell cell;
-    cell.Vertices = { { 0, y, -0.15 }, { 0, y + 0.1, -0.15 }, { 0, y + 0.1, 0.15 },
-      { 0, y, 0.15 } };
+    cell.Vertices = {{0, y, -0.15}, {0, y + 0.1, -0.15}, {0, y + 0.1, 0.15}, {0, y, 0.15}};
     for (Vec3& vertex : cell.Vertices)
     {
       vertex *= scale;
@@ -37,10 +36,9 @@ SceneDescription Stripes(double high, double low, double scale = 1.0)
 void AddWall(SurfaceMesh& mesh, double x, double y0, double y1)
 {
   const auto first = static_cast<std::uint32_t>(mesh.Points.size());
-  mesh.Points.insert(mesh.Points.end(),
-    { { x, y0, -5 }, { x, y1, -5 }, { x, y1, 5 }, { x, y0, 5 } });
-  mesh.Triangles.push_back({ first, first + 1, first + 2 });
-  mesh.Triangles.push_back({ first, first + 2, first + 3 });
+  mesh.Points.insert(mesh.Points.end(), {{x, y0, -5}, {x, y1, -5}, {x, y1, 5}, {x, y0, 5}});
+  mesh.Triangles.push_back({first, first + 1, first + 2});
+  mesh.Triangles.push_back({first, first + 2, first + 3});
   mesh.TriangleCell.insert(
     mesh.TriangleCell.end(), 2, static_cast<std::uint32_t>(mesh.CellReflectance.size()));
   mesh.CellReflectance.push_back({});
@@ -55,7 +53,7 @@ std::unique_ptr<View> ViewOf(SceneDescription description)
   return std::make_unique<View>(scene, field);
 }
 
-const Observer Plain{ 0.0 };
+const Observer Plain{0.0};
 
 // Five of nine equal stripes at H, four at L: mean (5 H + 4 L) / 9, deviation sqrt(20) / 9 (H - L).
 // From far off on the axis the stripes' solid angles are equal to (0.45 / 100)^2.
@@ -64,7 +62,7 @@ TEST(Contrast, OfStripes)
   const double high = 100.0;
   const double low = 10.0;
   const auto view = ViewOf(Stripes(high, low));
-  const SignMeasurement sign = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
+  const SignMeasurement sign = MeasureSign(*view, 0, {100, 0, 0}, Plain);
   const double mean = (5.0 * high + 4.0 * low) / 9.0;
   const double deviation = std::sqrt(20.0) / 9.0 * (high - low);
   EXPECT_TRUE(sign.InView);
@@ -82,8 +80,8 @@ TEST(Contrast, OfStripes)
 TEST(Contrast, DarkLuminanceOfTheObserver)
 {
   const auto view = ViewOf(Stripes(1.0, 0.0));
-  const SignMeasurement plain = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
-  const SignMeasurement dark = MeasureSign(*view, 0, { 100, 0, 0 }, Observer{ 0.5 });
+  const SignMeasurement plain = MeasureSign(*view, 0, {100, 0, 0}, Plain);
+  const SignMeasurement dark = MeasureSign(*view, 0, {100, 0, 0}, Observer{0.5});
   EXPECT_NEAR(plain.PerceivedContrast, plain.Contrast, 1e-9);
   EXPECT_NEAR(dark.Contrast, plain.Contrast, 1e-9);
   EXPECT_NEAR(dark.PerceivedContrast,
@@ -93,7 +91,7 @@ TEST(Contrast, DarkLuminanceOfTheObserver)
 TEST(Contrast, FromTheBackAndFromTheEdge)
 {
   const auto view = ViewOf(Stripes(1.0, 0.0));
-  for (const Vec3& eye : { Vec3(-5, 0, 0), Vec3(0, 5, 0), Vec3(-1e-9, 0, 0) })
+  for (const Vec3& eye : {Vec3(-5, 0, 0), Vec3(0, 5, 0), Vec3(-1e-9, 0, 0)})
   {
     const SignMeasurement sign = MeasureSign(*view, 0, eye, Plain);
     EXPECT_FALSE(sign.InView);
@@ -109,25 +107,26 @@ TEST(Contrast, PartlyHidden)
   SceneDescription scene = Stripes(100.0, 0.0);
   AddWall(scene.Surfaces, 50.0, 0.0, 10.0);
   const auto view = ViewOf(std::move(scene));
-  const SignMeasurement half = MeasureSign(*view, 0, { 100, 0, 0 }, Plain);
+  const SignMeasurement half = MeasureSign(*view, 0, {100, 0, 0}, Plain);
   EXPECT_TRUE(half.InView);
   // Pieces are seen or not as a whole: those that the edge cuts are a stripe's width at most.
   EXPECT_NEAR(half.VisibleFraction, 0.5, 0.5 / 9.0 + 1e-6);
   EXPECT_NEAR(half.LitLuminance, 100.0, 1e-2);
-  const SignMeasurement none = MeasureSign(*view, 0, { 100, 2, 0 }, Plain);
+  const SignMeasurement none = MeasureSign(*view, 0, {100, 2, 0}, Plain);
   EXPECT_FALSE(none.InView);
-  const SignMeasurement all = MeasureSign(*view, 0, { 100, -2, 0 }, Plain);
+  const SignMeasurement all = MeasureSign(*view, 0, {100, -2, 0}, Plain);
   EXPECT_NEAR(all.VisibleFraction, 1.0, 1e-6);
 }
 
-// Stripes far below the resolution melt into their mean: 1 mm at 20 m is a sixth of a minute of arc.
+// Stripes far below the resolution melt into their mean: 1 mm at 20 m is a sixth of a minute of
+// arc.
 TEST(Contrast, FinerThanTheEyeResolves)
 {
   SceneDescription scene = Stripes(100.0, 0.0, 0.01);
   AddWall(scene.Surfaces, 25.0, -5.0, 5.0);
   const auto view = ViewOf(std::move(scene));
-  const SignMeasurement near = MeasureSign(*view, 0, { 0.5, 0, 0 }, Plain);
-  const SignMeasurement far = MeasureSign(*view, 0, { 20, 0, 0 }, Plain);
+  const SignMeasurement near = MeasureSign(*view, 0, {0.5, 0, 0}, Plain);
+  const SignMeasurement far = MeasureSign(*view, 0, {20, 0, 0}, Plain);
   EXPECT_NEAR(near.Contrast, std::sqrt(20.0) / 5.0, 1e-3);
   EXPECT_NEAR(far.VisibleFraction, 1.0, 1e-6);
   EXPECT_LT(far.Contrast, 0.2);
@@ -138,7 +137,7 @@ TEST(Contrast, BoundHolds)
 {
   const auto view = ViewOf(Stripes(1.0, 0.2));
   const Observer observer;
-  for (const Vec3& eye : { Vec3(1, 0, 0), Vec3(5, 4, 1), Vec3(0.2, 3, 0), Vec3(300, 0, 0) })
+  for (const Vec3& eye : {Vec3(1, 0, 0), Vec3(5, 4, 1), Vec3(0.2, 3, 0), Vec3(300, 0, 0)})
   {
     EXPECT_GE(PerceivedContrastBound(*view, 0, eye, observer) + 1e-6,
       MeasureSign(*view, 0, eye, observer).PerceivedContrast);
@@ -152,7 +151,7 @@ TEST(FloorMap, StatusOfPlaces)
   AddWall(scene.Surfaces, 5.0, -10.0, 10.0);
   const auto view = ViewOf(std::move(scene));
   FloorMapOptions options;
-  options.FirstPlace = { -2, 0, 0 };
+  options.FirstPlace = {-2, 0, 0};
   options.StepX = 4.0;
   options.PlacesX = 3;
   options.PlacesY = 1;

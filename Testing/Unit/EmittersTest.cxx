@@ -19,8 +19,8 @@ constexpr double AnySize = 1e300;
 EmitterCell Rectangle(double x0, double x1, double y0, double y1, double luminance, int signId)
 {
   EmitterCell cell;
-  cell.Vertices = { { x0, y0, 0 }, { x1, y0, 0 }, { x1, y1, 0 }, { x0, y1, 0 } };
-  cell.Luminance = { luminance, luminance, luminance };
+  cell.Vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
+  cell.Luminance = {luminance, luminance, luminance};
   cell.SignId = signId;
   return cell;
 }
@@ -28,14 +28,14 @@ EmitterCell Rectangle(double x0, double x1, double y0, double y1, double luminan
 TEST(Emitters, AreaNormalCentre)
 {
   EmitterCell triangle;
-  triangle.Vertices = { { 0, 0, 1 }, { 0, 3, 1 }, { 3, 0, 1 } };
+  triangle.Vertices = {{0, 0, 1}, {0, 3, 1}, {3, 0, 1}};
   EmitterCell hexagon;
   for (int corner = 0; corner < 6; ++corner)
   {
     hexagon.Vertices.emplace_back(
       5.0 + std::cos(Pi / 3.0 * corner), std::sin(Pi / 3.0 * corner), 2.0);
   }
-  const EmitterSet set({ triangle, hexagon }, 1, AnySize);
+  const EmitterSet set({triangle, hexagon}, 1, AnySize);
   EXPECT_DOUBLE_EQ(set.CellArea(0), 4.5);
   EXPECT_EQ(set.CellNormal(0), Vec3(0, 0, -1));
   EXPECT_LT(glm::length(set.CellCentre(0) - Vec3(1, 1, 1)), 1e-12);
@@ -49,29 +49,29 @@ TEST(Emitters, Flux)
   EmitterCell lambertian = Rectangle(0, 2, 0, 1, 10.0, -1);
   EmitterCell narrow = Rectangle(5, 6, 0, 1, 10.0, -1);
   narrow.Exponent = 8.0;
-  EXPECT_NEAR(EmitterSet({ lambertian }, 1, AnySize).Flux(0), Pi * 10.0 * 2.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({ narrow }, 1, AnySize).Flux(0), 2.0 * Pi * 10.0 / 10.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({ lambertian, narrow }, 1, AnySize).Flux(0), Pi * 20.0 + 2.0 * Pi, 1e-9);
+  EXPECT_NEAR(EmitterSet({lambertian}, 1, AnySize).Flux(0), Pi * 10.0 * 2.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({narrow}, 1, AnySize).Flux(0), 2.0 * Pi * 10.0 / 10.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({lambertian, narrow}, 1, AnySize).Flux(0), Pi * 20.0 + 2.0 * Pi, 1e-9);
 }
 
 TEST(Emitters, SignsInOrderOfTheirIds)
 {
-  const EmitterSet set({ Rectangle(0, 1, 0, 1, 1.0, 7), Rectangle(5, 6, 0, 2, 1.0, 3),
-                         Rectangle(1, 2, 0, 1, 0.0, 7), Rectangle(9, 10, 0, 1, 1.0, -1) },
+  const EmitterSet set({Rectangle(0, 1, 0, 1, 1.0, 7), Rectangle(5, 6, 0, 2, 1.0, 3),
+                         Rectangle(1, 2, 0, 1, 0.0, 7), Rectangle(9, 10, 0, 1, 1.0, -1)},
     1, AnySize);
   ASSERT_EQ(set.Signs().size(), 2U);
   EXPECT_EQ(set.Signs()[0].Id, 3);
   EXPECT_EQ(set.Signs()[1].Id, 7);
   const Sign& sign = set.Signs()[1];
-  EXPECT_EQ(sign.Cells, (std::vector<std::size_t>{ 0, 2 }));
+  EXPECT_EQ(sign.Cells, (std::vector<std::size_t>{0, 2}));
   EXPECT_LT(glm::length(sign.Centre - Vec3(1, 0.5, 0)), 1e-12);
   EXPECT_LT(glm::length(sign.Normal - Vec3(0, 0, 1)), 1e-12);
   EXPECT_NEAR(sign.Radius, 0.5 * std::sqrt(5.0), 1e-12);
   EXPECT_NEAR(glm::length(sign.Corners[1] - sign.Corners[0]), 2.0, 1e-12);
   EXPECT_NEAR(glm::length(sign.Corners[3] - sign.Corners[0]), 1.0, 1e-12);
   // Counter-clockwise from the front.
-  const Vec3 turn = glm::cross(
-    sign.Corners[1] - sign.Corners[0], sign.Corners[2] - sign.Corners[1]);
+  const Vec3 turn =
+    glm::cross(sign.Corners[1] - sign.Corners[0], sign.Corners[2] - sign.Corners[1]);
   EXPECT_GT(glm::dot(turn, sign.Normal), 0.0);
 }
 
@@ -106,8 +106,8 @@ TEST(Emitters, LightsAndTheirGroups)
   cells.push_back(Rectangle(22, 23, 0, 1, 5.0, -1));
   const EmitterSet set(cells, 1, AnySize);
   ASSERT_EQ(set.Lights().size(), 3U);
-  const std::array<double, 3> intensities = { 5 * 4 * 3.0, 5.0, 5.0 };
-  const std::array<double, 3> areas = { 5 * 4.0, 1.0, 1.0 };
+  const std::array<double, 3> intensities = {5 * 4 * 3.0, 5.0, 5.0};
+  const std::array<double, 3> areas = {5 * 4.0, 1.0, 1.0};
   for (std::size_t light = 0; light < 3; ++light)
   {
     const LightGroup& root = set.Groups()[static_cast<std::size_t>(set.Lights()[light])];
@@ -124,8 +124,8 @@ TEST(Emitters, LightsAndTheirGroups)
 // Large lights are left to the lines: a sign counts with all its lit cells.
 TEST(Emitters, LargeLightsAreLeftToLines)
 {
-  const EmitterSet set({ Rectangle(0, 1, 0, 1, 1.0, 0), Rectangle(1, 2, 0, 1, 1.0, 0),
-                         Rectangle(5, 6, 0, 1, 1.0, -1), Rectangle(7, 9, 0, 1, 1.0, -1) },
+  const EmitterSet set({Rectangle(0, 1, 0, 1, 1.0, 0), Rectangle(1, 2, 0, 1, 1.0, 0),
+                         Rectangle(5, 6, 0, 1, 1.0, -1), Rectangle(7, 9, 0, 1, 1.0, -1)},
     1, 1.5);
   EXPECT_TRUE(set.LeftToLines(0));
   EXPECT_TRUE(set.LeftToLines(1));
@@ -144,15 +144,14 @@ TEST(PolygonLight, SolidAngle)
   const Vec3 c(1, 1, 1);
   const Vec3 d(-1, 1, 1);
   const Vec3 point(0.0);
-  EXPECT_NEAR(
-    SolidAngle(point, a, b, c) + SolidAngle(point, a, c, d), 4.0 * Pi / 6.0, 1e-12);
+  EXPECT_NEAR(SolidAngle(point, a, b, c) + SolidAngle(point, a, c, d), 4.0 * Pi / 6.0, 1e-12);
   // Right at a large polygon: half of the sphere. In its plane beside it: nothing.
   const Vec3 wide(100, 100, 1);
   const Vec3 close(0.1, 0.2, 1 - 1e-9);
-  const double near =
-    SolidAngle(close, wide * a, wide * b, wide * c) + SolidAngle(close, wide * a, wide * c, wide * d);
+  const double near = SolidAngle(close, wide * a, wide * b, wide * c) +
+                      SolidAngle(close, wide * a, wide * c, wide * d);
   EXPECT_NEAR(near, 2.0 * Pi, 1e-6);
-  EXPECT_NEAR(SolidAngle({ 5, 5, 1 }, a, b, c), 0.0, 1e-12);
+  EXPECT_NEAR(SolidAngle({5, 5, 1}, a, b, c), 0.0, 1e-12);
 }
 
 // Configuration factors of unit squares at distance 1: parallel 0.1998 is between areas; the point
@@ -160,17 +159,16 @@ TEST(PolygonLight, SolidAngle)
 // (4 / (2 pi)) * 2 * (1 / sqrt 2) atan(1 / sqrt 2) (Howell's catalogue, B-4).
 TEST(PolygonLight, ProjectedSolidAngle)
 {
-  const std::array<Vec3, 4> square = { Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, 1, 1),
-    Vec3(1, -1, 1) };
-  const double factor =
-    4.0 / (2.0 * Pi) * 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
-  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 0, 0, 1 }, square), Pi * factor, 1e-12);
+  const std::array<Vec3, 4> square = {
+    Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1)};
+  const double factor = 4.0 / (2.0 * Pi) * 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {0, 0, 1}, square), Pi * factor, 1e-12);
   // A vertical plane sees the half of the square before it.
-  const std::array<Vec3, 4> half = { Vec3(0, -1, 1), Vec3(0, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1) };
-  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, square),
-    ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, half), 1e-12);
-  EXPECT_GT(ProjectedSolidAngle(Vec3(0.0), { 1, 0, 0 }, half), 0.1);
-  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), { 0, 0, -1 }, square), 0.0, 1e-12);
+  const std::array<Vec3, 4> half = {Vec3(0, -1, 1), Vec3(0, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1)};
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, square),
+    ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, half), 1e-12);
+  EXPECT_GT(ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, half), 0.1);
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {0, 0, -1}, square), 0.0, 1e-12);
 }
 
 } // namespace

@@ -15,11 +15,11 @@ void AddQuad(SurfaceMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, con
 {
   const auto first = static_cast<std::uint32_t>(mesh.Points.size());
   const auto cell = static_cast<std::uint32_t>(mesh.CellReflectance.size());
-  mesh.Points.insert(mesh.Points.end(), { a, b, c, d });
-  mesh.Triangles.push_back({ first, first + 1, first + 2 });
-  mesh.Triangles.push_back({ first, first + 2, first + 3 });
+  mesh.Points.insert(mesh.Points.end(), {a, b, c, d});
+  mesh.Triangles.push_back({first, first + 1, first + 2});
+  mesh.Triangles.push_back({first, first + 2, first + 3});
   mesh.TriangleCell.insert(mesh.TriangleCell.end(), 2, cell);
-  mesh.CellReflectance.push_back({ 0.5, 0.5, 0.5 });
+  mesh.CellReflectance.push_back({0.5, 0.5, 0.5});
 }
 
 /// A square of half width h at a height z, front upwards or downwards.
@@ -40,21 +40,21 @@ TEST(Geometry, DistanceSideAndNormal)
 {
   const Geometry shapes(Square(0.0), {});
   EXPECT_FALSE(shapes.Empty());
-  const Hit above = shapes.Intersect({ 0.2, 0.3, 2 }, { 0, 0, -1 }, 0.0, Far);
+  const Hit above = shapes.Intersect({0.2, 0.3, 2}, {0, 0, -1}, 0.0, Far);
   ASSERT_TRUE(above.Found());
   EXPECT_DOUBLE_EQ(above.Distance, 2.0);
   EXPECT_EQ(above.Side, 0);
   EXPECT_FALSE(above.Emitter);
   EXPECT_EQ(shapes.Cell(above), 0U);
   EXPECT_EQ(shapes.Normal(above), Vec3(0, 0, 1));
-  const Hit below = shapes.Intersect({ 0.2, 0.3, -2 }, { 0, 0, 1 }, 0.0, Far);
+  const Hit below = shapes.Intersect({0.2, 0.3, -2}, {0, 0, 1}, 0.0, Far);
   ASSERT_TRUE(below.Found());
   EXPECT_EQ(below.Side, 1);
-  EXPECT_FALSE(shapes.Intersect({ 2, 0, 2 }, { 0, 0, -1 }, 0.0, Far).Found());
-  EXPECT_FALSE(shapes.Intersect({ 0, 0, 2 }, { 0, 0, 1 }, 0.0, Far).Found());
+  EXPECT_FALSE(shapes.Intersect({2, 0, 2}, {0, 0, -1}, 0.0, Far).Found());
+  EXPECT_FALSE(shapes.Intersect({0, 0, 2}, {0, 0, 1}, 0.0, Far).Found());
   // Only between the two distances.
-  EXPECT_FALSE(shapes.Intersect({ 0, 0, 2 }, { 0, 0, -1 }, 0.0, 1.9).Found());
-  EXPECT_FALSE(shapes.Intersect({ 0, 0, 2 }, { 0, 0, -1 }, 2.1, Far).Found());
+  EXPECT_FALSE(shapes.Intersect({0, 0, 2}, {0, 0, -1}, 0.0, 1.9).Found());
+  EXPECT_FALSE(shapes.Intersect({0, 0, 2}, {0, 0, -1}, 2.1, Far).Found());
 }
 
 // Distances are those of the planes in double precision, also far away from the origin.
@@ -74,18 +74,18 @@ TEST(Geometry, Nothing)
   EXPECT_TRUE(none.Empty());
   const Geometry empty(SurfaceMesh{}, SurfaceMesh{});
   EXPECT_TRUE(empty.Empty());
-  EXPECT_FALSE(empty.Intersect(Vec3(0.0), { 1, 0, 0 }, 0.0, Far).Found());
-  EXPECT_FALSE(empty.Occluded(Vec3(0.0), { 1, 0, 0 }, 0.0, Far));
+  EXPECT_FALSE(empty.Intersect(Vec3(0.0), {1, 0, 0}, 0.0, Far).Found());
+  EXPECT_FALSE(empty.Occluded(Vec3(0.0), {1, 0, 0}, 0.0, Far));
   EXPECT_TRUE(empty.Visible(Vec3(0.0), Vec3(1.0)));
 }
 
 TEST(Geometry, TrianglesWithoutAreaAreLeftOut)
 {
   SurfaceMesh mesh;
-  mesh.Points = { Vec3(0.0), Vec3(1.0), Vec3(2.0) };
-  mesh.Triangles = { { 0, 1, 2 }, { 0, 0, 1 }, { 2, 2, 2 } };
-  mesh.TriangleCell = { 0, 0, 0 };
-  mesh.CellReflectance = { {} };
+  mesh.Points = {Vec3(0.0), Vec3(1.0), Vec3(2.0)};
+  mesh.Triangles = {{0, 1, 2}, {0, 0, 1}, {2, 2, 2}};
+  mesh.TriangleCell = {0, 0, 0};
+  mesh.CellReflectance = {{}};
   EXPECT_TRUE(Geometry(mesh, {}).Empty());
 }
 
@@ -96,10 +96,10 @@ class PlateOnWall : public testing::TestWithParam<double>
 
 TEST_P(PlateOnWall, IsSeenFromItsFrontOnly)
 {
-  for (const bool wallUp : { true, false })
+  for (const bool wallUp : {true, false})
   {
     const Geometry shapes(Square(0.0, 1.0, wallUp), Square(GetParam(), 0.5));
-    for (const double slant : { 0.0, 0.3, 1.0, 3.0 })
+    for (const double slant : {0.0, 0.3, 1.0, 3.0})
     {
       const Vec3 down = glm::normalize(Vec3(slant, 0.2 * slant, -1));
       const Hit front = shapes.Intersect(Vec3(0.1, 0.1, 0) - down, down, 0.0, Far);
@@ -123,35 +123,35 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Geometry, PlateBeforeAndBehindTheWall)
 {
-  const Geometry before({ Square(0.0) }, Square(0.01, 0.5));
-  EXPECT_TRUE(before.Intersect({ 0, 0, 1 }, { 0, 0, -1 }, 0.0, Far).Emitter);
-  const Geometry behind({ Square(0.0) }, Square(-0.01, 0.5));
-  EXPECT_FALSE(behind.Intersect({ 0, 0, 1 }, { 0, 0, -1 }, 0.0, Far).Emitter);
+  const Geometry before({Square(0.0)}, Square(0.01, 0.5));
+  EXPECT_TRUE(before.Intersect({0, 0, 1}, {0, 0, -1}, 0.0, Far).Emitter);
+  const Geometry behind({Square(0.0)}, Square(-0.01, 0.5));
+  EXPECT_FALSE(behind.Intersect({0, 0, 1}, {0, 0, -1}, 0.0, Far).Emitter);
 }
 
 TEST(Geometry, OcclusionAndSight)
 {
   const Geometry shapes(Square(0.0), Square(1.0, 0.5));
-  EXPECT_TRUE(shapes.Occluded({ 0, 0, 0.5 }, { 0, 0, -1 }, 0.0, 1.0));
-  EXPECT_TRUE(shapes.Occluded({ 0, 0, 0.5 }, { 0, 0, 1 }, 0.0, 1.0));
-  EXPECT_FALSE(shapes.Occluded({ 0, 0, 0.5 }, { 1, 0, 0 }, 0.0, Far));
-  EXPECT_FALSE(shapes.Occluded({ 0, 0, 0.5 }, { 0, 0, -1 }, 0.0, 0.4));
+  EXPECT_TRUE(shapes.Occluded({0, 0, 0.5}, {0, 0, -1}, 0.0, 1.0));
+  EXPECT_TRUE(shapes.Occluded({0, 0, 0.5}, {0, 0, 1}, 0.0, 1.0));
+  EXPECT_FALSE(shapes.Occluded({0, 0, 0.5}, {1, 0, 0}, 0.0, Far));
+  EXPECT_FALSE(shapes.Occluded({0, 0, 0.5}, {0, 0, -1}, 0.0, 0.4));
   // What touches the ends does not hide them.
-  EXPECT_TRUE(shapes.Visible({ 0, 0, 0 }, { 0, 0, 1 }));
-  EXPECT_TRUE(shapes.Visible({ 0.1, 0.2, 0 }, { -0.3, 0.2, 1 }));
-  EXPECT_FALSE(shapes.Visible({ 0, 0, -0.5 }, { 0, 0, 0.5 }));
-  EXPECT_FALSE(shapes.Visible({ 0, 0, -0.5 }, { 0, 0, 1 }));
-  EXPECT_TRUE(shapes.Visible({ 0, 0, 0.5 }, { 0, 0, 0.5 }));
+  EXPECT_TRUE(shapes.Visible({0, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(shapes.Visible({0.1, 0.2, 0}, {-0.3, 0.2, 1}));
+  EXPECT_FALSE(shapes.Visible({0, 0, -0.5}, {0, 0, 0.5}));
+  EXPECT_FALSE(shapes.Visible({0, 0, -0.5}, {0, 0, 1}));
+  EXPECT_TRUE(shapes.Visible({0, 0, 0.5}, {0, 0, 0.5}));
 }
 
 // A line through a stack finds every shape once, in order, with both its sides.
 TEST(Geometry, CrossingsOfALine)
 {
   SurfaceMesh stack = Square(0.0);
-  AddQuad(stack, { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 });
+  AddQuad(stack, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
   const Geometry shapes(stack, Square(0.0, 0.5));
   std::vector<Crossing> crossings;
-  shapes.Cross({ 0.1, 0.2, 5 }, { 0, 0, -1 }, 0.0, Far, crossings);
+  shapes.Cross({0.1, 0.2, 5}, {0, 0, -1}, 0.0, Far, crossings);
   ASSERT_EQ(crossings.size(), 2U);
   // The plate lies on the first square: its front arrives, the square's back leaves.
   EXPECT_TRUE(crossings[0].Arrive.Emitter);
@@ -168,20 +168,20 @@ TEST(Geometry, CrossingsOfALine)
 TEST(Geometry, WatertightAtSharedEdges)
 {
   SurfaceMesh box;
-  AddQuad(box, { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 });
-  AddQuad(box, { 0, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 0, 1 });
-  AddQuad(box, { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 0, 0 });
-  AddQuad(box, { 0, 1, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 0, 1, 1 });
-  AddQuad(box, { 0, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 }, { 0, 0, 1 });
-  AddQuad(box, { 1, 0, 0 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 });
+  AddQuad(box, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  AddQuad(box, {0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1});
+  AddQuad(box, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+  AddQuad(box, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1});
+  AddQuad(box, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1});
+  AddQuad(box, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0});
   const Geometry shapes(box, {});
   const Vec3 centre(0.41, 0.52, 0.37);
   for (int i = 0; i <= 20; ++i)
   {
     for (int j = 0; j <= 20; ++j)
     {
-      for (const Vec3& target : { Vec3(0.05 * i, 0.05 * j, 0), Vec3(0.05 * i, 0.05 * j, 1),
-             Vec3(0.05 * i, 0, 0.05 * j), Vec3(1, 0.05 * i, 0.05 * j) })
+      for (const Vec3& target : {Vec3(0.05 * i, 0.05 * j, 0), Vec3(0.05 * i, 0.05 * j, 1),
+             Vec3(0.05 * i, 0, 0.05 * j), Vec3(1, 0.05 * i, 0.05 * j)})
       {
         const Vec3 direction = glm::normalize(target - centre);
         const Hit hit = shapes.Intersect(centre, direction, 0.0, Far);

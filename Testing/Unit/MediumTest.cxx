@@ -11,11 +11,12 @@ namespace
 
 using namespace smokevis;
 
-SmokeGrid Grid(std::vector<double> x, std::vector<double> y, std::vector<double> z, float extinction)
+SmokeGrid Grid(
+  std::vector<double> x, std::vector<double> y, std::vector<double> z, float extinction)
 {
   SmokeGrid grid;
   grid.Name = "test";
-  grid.Nodes = { std::move(x), std::move(y), std::move(z) };
+  grid.Nodes = {std::move(x), std::move(y), std::move(z)};
   grid.Extinction.assign(
     (grid.Nodes[0].size() - 1) * (grid.Nodes[1].size() - 1) * (grid.Nodes[2].size() - 1),
     extinction);
@@ -25,7 +26,7 @@ SmokeGrid Grid(std::vector<double> x, std::vector<double> y, std::vector<double>
 /// 2 x 2 x 2 cells of unequal width, extinctions 1 to 8.
 SmokeGrid Numbered()
 {
-  SmokeGrid grid = Grid({ 0, 1, 3 }, { 0, 2, 3 }, { 0, 1, 2 }, 0.0F);
+  SmokeGrid grid = Grid({0, 1, 3}, {0, 2, 3}, {0, 1, 2}, 0.0F);
   for (std::size_t cell = 0; cell < 8; ++cell)
   {
     grid.Extinction[cell] = static_cast<float>(cell + 1);
@@ -43,7 +44,7 @@ std::vector<Segment> WalkOf(const Medium& medium, const Vec3& origin, const Vec3
 
 TEST(Medium, CellsAndPlaces)
 {
-  const Medium medium({ Numbered() });
+  const Medium medium({Numbered()});
   EXPECT_EQ(medium.Cells(), 8U);
   EXPECT_FALSE(medium.Empty());
   EXPECT_FALSE(medium.Emits());
@@ -56,16 +57,16 @@ TEST(Medium, CellsAndPlaces)
   {
     EXPECT_EQ(medium.Locate(medium.CellCentre(cell)), cell);
   }
-  EXPECT_EQ(medium.Locate({ -0.1, 1, 1 }), -1);
-  EXPECT_EQ(medium.Locate({ 3.1, 1, 1 }), -1);
+  EXPECT_EQ(medium.Locate({-0.1, 1, 1}), -1);
+  EXPECT_EQ(medium.Locate({3.1, 1, 1}), -1);
   // The outer faces belong to the smoke.
-  EXPECT_EQ(medium.Locate({ 3, 3, 2 }), 7);
+  EXPECT_EQ(medium.Locate({3, 3, 2}), 7);
   EXPECT_EQ(medium.Locate(Vec3(0.0)), 0);
 }
 
 TEST(Medium, Neighbours)
 {
-  const Medium medium({ Numbered() });
+  const Medium medium({Numbered()});
   EXPECT_EQ(medium.Neighbour(0, 0, 1), 1);
   EXPECT_EQ(medium.Neighbour(1, 0, 0), 0);
   EXPECT_EQ(medium.Neighbour(0, 1, 1), 2);
@@ -76,8 +77,7 @@ TEST(Medium, Neighbours)
 
 TEST(Medium, NeighbourInAnotherGrid)
 {
-  const Medium medium(
-    { Grid({ 0, 1 }, { 0, 1 }, { 0, 1 }, 1.0F), Grid({ 1, 2 }, { 0, 1 }, { 0, 1 }, 2.0F) });
+  const Medium medium({Grid({0, 1}, {0, 1}, {0, 1}, 1.0F), Grid({1, 2}, {0, 1}, {0, 1}, 2.0F)});
   EXPECT_EQ(medium.Neighbour(0, 0, 1), 1);
   EXPECT_EQ(medium.Neighbour(1, 0, 0), 0);
   EXPECT_EQ(medium.Neighbour(1, 0, 1), -1);
@@ -85,35 +85,34 @@ TEST(Medium, NeighbourInAnotherGrid)
 
 TEST(Medium, RayAlongAnAxis)
 {
-  const Medium medium({ Numbered() });
-  const auto pieces = WalkOf(medium, { -1, 1, 0.5 }, { 1, 0, 0 });
+  const Medium medium({Numbered()});
+  const auto pieces = WalkOf(medium, {-1, 1, 0.5}, {1, 0, 0});
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].Cell, 0);
   EXPECT_DOUBLE_EQ(pieces[0].Begin, 1.0);
   EXPECT_DOUBLE_EQ(pieces[0].End, 2.0);
   EXPECT_EQ(pieces[1].Cell, 1);
   EXPECT_DOUBLE_EQ(pieces[1].End, 4.0);
-  EXPECT_DOUBLE_EQ(medium.OpticalDepth({ -1, 1, 0.5 }, { 1, 0, 0 }, 0.0, 10.0), 1.0 + 2.0 * 2.0);
+  EXPECT_DOUBLE_EQ(medium.OpticalDepth({-1, 1, 0.5}, {1, 0, 0}, 0.0, 10.0), 1.0 + 2.0 * 2.0);
   // Only the second half of the first cell, and nothing behind a point.
-  EXPECT_DOUBLE_EQ(medium.OpticalDepth({ -1, 1, 0.5 }, { 1, 0, 0 }, 1.5, 2.0), 0.5);
-  EXPECT_TRUE(WalkOf(medium, { -1, 1, 0.5 }, { -1, 0, 0 }).empty());
+  EXPECT_DOUBLE_EQ(medium.OpticalDepth({-1, 1, 0.5}, {1, 0, 0}, 1.5, 2.0), 0.5);
+  EXPECT_TRUE(WalkOf(medium, {-1, 1, 0.5}, {-1, 0, 0}).empty());
 }
 
 TEST(Medium, RaysBackwardsThroughFacesEdgesAndCorners)
 {
-  const Medium medium({ Numbered() });
+  const Medium medium({Numbered()});
   // Back along x.
-  EXPECT_DOUBLE_EQ(medium.OpticalDepth({ 4, 1, 0.5 }, { -1, 0, 0 }, 0.0, 10.0), 5.0);
+  EXPECT_DOUBLE_EQ(medium.OpticalDepth({4, 1, 0.5}, {-1, 0, 0}, 0.0, 10.0), 5.0);
   // In a face between cells: either side's smoke, but once, and all the way.
-  const double inFace = medium.OpticalDepth({ -1, 2, 0.5 }, { 1, 0, 0 }, 0.0, 10.0);
+  const double inFace = medium.OpticalDepth({-1, 2, 0.5}, {1, 0, 0}, 0.0, 10.0);
   EXPECT_TRUE(inFace == 1.0 + 2.0 * 2.0 || inFace == 3.0 + 2.0 * 4.0) << inFace;
   // Along the outer face.
-  EXPECT_DOUBLE_EQ(medium.OpticalDepth({ -1, 0, 0 }, { 1, 0, 0 }, 0.0, 10.0), 5.0);
+  EXPECT_DOUBLE_EQ(medium.OpticalDepth({-1, 0, 0}, {1, 0, 0}, 0.0, 10.0), 5.0);
   // Through the inner corner (1, 2, 1), both ways.
   const Vec3 direction = glm::normalize(Vec3(1, 2, 1));
   const double forth = medium.OpticalDepth(Vec3(0.0), direction, 0.0, 10.0);
-  const double back =
-    medium.OpticalDepth(Vec3(0.0) + 10.0 * direction, -direction, 0.0, 10.0);
+  const double back = medium.OpticalDepth(Vec3(0.0) + 10.0 * direction, -direction, 0.0, 10.0);
   EXPECT_NEAR(forth, std::sqrt(6.0) * (1.0 + 0.5 * 8.0), 1e-12);
   EXPECT_NEAR(back, forth, 1e-12);
 }
@@ -121,8 +120,8 @@ TEST(Medium, RaysBackwardsThroughFacesEdgesAndCorners)
 // Pieces adjoin, and add up to the length of the ray in the box.
 TEST(Medium, PiecesTelescope)
 {
-  SmokeGrid grid = Grid({ 0, 0.3, 0.35, 1, 2 }, { -1, 0, 0.1, 0.9 }, { 5, 6, 6.5 }, 1.0F);
-  const Medium medium({ grid });
+  SmokeGrid grid = Grid({0, 0.3, 0.35, 1, 2}, {-1, 0, 0.1, 0.9}, {5, 6, 6.5}, 1.0F);
+  const Medium medium({grid});
   for (int i = 0; i < 200; ++i)
   {
     const double a = 0.1 * i;
@@ -159,38 +158,35 @@ TEST(Medium, PiecesTelescope)
 // The finer of two grids counts where they overlap, whichever is given first.
 TEST(Medium, FinestGridWins)
 {
-  const SmokeGrid coarse = Grid({ 0, 4 }, { 0, 4 }, { 0, 4 }, 1.0F);
-  const SmokeGrid fine = Grid({ 1, 1.5, 2, 2.5, 3 }, { 1, 2, 3 }, { 1, 2, 3 }, 10.0F);
-  for (const bool coarseFirst : { true, false })
+  const SmokeGrid coarse = Grid({0, 4}, {0, 4}, {0, 4}, 1.0F);
+  const SmokeGrid fine = Grid({1, 1.5, 2, 2.5, 3}, {1, 2, 3}, {1, 2, 3}, 10.0F);
+  for (const bool coarseFirst : {true, false})
   {
-    const Medium medium(coarseFirst ? std::vector<SmokeGrid>{ coarse, fine }
-                                    : std::vector<SmokeGrid>{ fine, coarse });
+    const Medium medium(
+      coarseFirst ? std::vector<SmokeGrid>{coarse, fine} : std::vector<SmokeGrid>{fine, coarse});
     EXPECT_DOUBLE_EQ(
-      medium.OpticalDepth({ -1, 1.7, 1.7 }, { 1, 0, 0 }, 0.0, 10.0), 1.0 + 2.0 * 10.0 + 1.0);
-    EXPECT_DOUBLE_EQ(medium.OpticalDepth({ -1, 0.5, 0.5 }, { 1, 0, 0 }, 0.0, 10.0), 4.0);
-    EXPECT_FLOAT_EQ(medium.Extinction(medium.Locate({ 2, 2, 2 })), 10.0F);
-    EXPECT_FLOAT_EQ(medium.Extinction(medium.Locate({ 0.5, 2, 2 })), 1.0F);
+      medium.OpticalDepth({-1, 1.7, 1.7}, {1, 0, 0}, 0.0, 10.0), 1.0 + 2.0 * 10.0 + 1.0);
+    EXPECT_DOUBLE_EQ(medium.OpticalDepth({-1, 0.5, 0.5}, {1, 0, 0}, 0.0, 10.0), 4.0);
+    EXPECT_FLOAT_EQ(medium.Extinction(medium.Locate({2, 2, 2})), 10.0F);
+    EXPECT_FLOAT_EQ(medium.Extinction(medium.Locate({0.5, 2, 2})), 1.0F);
   }
 }
 
 // No smoke lies in the gap between two grids, and a ray in their common face counts once.
 TEST(Medium, GapsAndCommonFaces)
 {
-  const Medium gap(
-    { Grid({ 0, 1 }, { 0, 1 }, { 0, 1 }, 1.0F), Grid({ 3, 4 }, { 0, 1 }, { 0, 1 }, 1.0F) });
-  EXPECT_DOUBLE_EQ(gap.OpticalDepth({ -1, 0.5, 0.5 }, { 1, 0, 0 }, 0.0, 10.0), 2.0);
-  const Medium touching(
-    { Grid({ 0, 1 }, { 0, 1 }, { 0, 1 }, 1.0F), Grid({ 0, 1 }, { 1, 2 }, { 0, 1 }, 1.0F) });
-  EXPECT_DOUBLE_EQ(touching.OpticalDepth({ -1, 1, 0.5 }, { 1, 0, 0 }, 0.0, 10.0), 1.0);
+  const Medium gap({Grid({0, 1}, {0, 1}, {0, 1}, 1.0F), Grid({3, 4}, {0, 1}, {0, 1}, 1.0F)});
+  EXPECT_DOUBLE_EQ(gap.OpticalDepth({-1, 0.5, 0.5}, {1, 0, 0}, 0.0, 10.0), 2.0);
+  const Medium touching({Grid({0, 1}, {0, 1}, {0, 1}, 1.0F), Grid({0, 1}, {1, 2}, {0, 1}, 1.0F)});
+  EXPECT_DOUBLE_EQ(touching.OpticalDepth({-1, 1, 0.5}, {1, 0, 0}, 0.0, 10.0), 1.0);
 }
 
 TEST(Medium, FarFromTheOrigin)
 {
   const double far = 1e6;
-  const Medium medium(
-    { Grid({ far, far + 1, far + 2 }, { -far, 1 - far }, { far, far + 1 }, 2.0F) });
-  EXPECT_NEAR(medium.OpticalDepth({ far - 1, 0.5 - far, far + 0.5 }, { 1, 0, 0 }, 0.0, 10.0), 4.0,
-    1e-8);
+  const Medium medium({Grid({far, far + 1, far + 2}, {-far, 1 - far}, {far, far + 1}, 2.0F)});
+  EXPECT_NEAR(
+    medium.OpticalDepth({far - 1, 0.5 - far, far + 0.5}, {1, 0, 0}, 0.0, 10.0), 4.0, 1e-8);
 }
 
 TEST(Medium, None)
@@ -198,14 +194,14 @@ TEST(Medium, None)
   const Medium medium(std::vector<SmokeGrid>{});
   EXPECT_TRUE(medium.Empty());
   EXPECT_EQ(medium.Locate(Vec3(0.0)), -1);
-  EXPECT_DOUBLE_EQ(medium.OpticalDepth(Vec3(0.0), { 1, 0, 0 }, 0.0, 10.0), 0.0);
+  EXPECT_DOUBLE_EQ(medium.OpticalDepth(Vec3(0.0), {1, 0, 0}, 0.0, 10.0), 0.0);
 }
 
 TEST(Medium, EmissionOfOneGridOnly)
 {
-  SmokeGrid flame = Grid({ 0, 1 }, { 0, 1 }, { 0, 1 }, 1.0F);
-  flame.EmittedLuminance = { 5.0F };
-  const Medium medium({ flame, Grid({ 1, 2 }, { 0, 1 }, { 0, 1 }, 1.0F) });
+  SmokeGrid flame = Grid({0, 1}, {0, 1}, {0, 1}, 1.0F);
+  flame.EmittedLuminance = {5.0F};
+  const Medium medium({flame, Grid({1, 2}, {0, 1}, {0, 1}, 1.0F)});
   EXPECT_TRUE(medium.Emits());
   EXPECT_FLOAT_EQ(medium.EmittedLuminance(0), 5.0F);
   EXPECT_FLOAT_EQ(medium.EmittedLuminance(1), 0.0F);

@@ -11,10 +11,9 @@ namespace
 using namespace smokevis;
 
 /// Nodes that put a cell of the given size around each coordinate.
-std::vector<double> NodesAround(
-  std::vector<double> centres, double size, double first, double last)
+std::vector<double> NodesAround(std::vector<double> centres, double size, double first, double last)
 {
-  std::vector<double> nodes = { first, last };
+  std::vector<double> nodes = {first, last};
   std::sort(centres.begin(), centres.end());
   centres.erase(std::unique(centres.begin(), centres.end()), centres.end());
   for (const double centre : centres)
@@ -28,7 +27,7 @@ std::vector<double> NodesAround(
 
 EmitterCell TableSign()
 {
-  return scenes::Plate(Vec3(0.0), { 0, 0, 1 }, { 0, 1, 0 }, 0.4, 0.2, 1.0, 0.0, 0);
+  return scenes::Plate(Vec3(0.0), {0, 0, 1}, {0, 1, 0}, 0.4, 0.2, 1.0, 0.0, 0);
 }
 
 /// K = 0 is posed as an extinction too small to matter, so that there is smoke to hold a fluence.
@@ -52,19 +51,19 @@ TEST(AreaLight, DirectFluence)
     y.push_back(table.Number(row, "y"));
     z.push_back(table.Number(row, "z"));
   }
-  for (const double extinction : { 0.0, 0.5, 1.0, 2.0 })
+  for (const double extinction : {0.0, 0.5, 1.0, 2.0})
   {
     SceneDescription description;
     description.Albedo = 0.01;
     SmokeGrid grid;
     grid.Name = "smoke";
-    grid.Nodes = { NodesAround(x, 0.01, -1.0, 4.0), NodesAround(y, 0.01, -3.0, 1.0),
-      NodesAround(z, 0.01, 0.0, 11.0) };
-    grid.Extinction.assign((grid.Nodes[0].size() - 1) * (grid.Nodes[1].size() - 1) *
-        (grid.Nodes[2].size() - 1),
+    grid.Nodes = {NodesAround(x, 0.01, -1.0, 4.0), NodesAround(y, 0.01, -3.0, 1.0),
+      NodesAround(z, 0.01, 0.0, 11.0)};
+    grid.Extinction.assign(
+      (grid.Nodes[0].size() - 1) * (grid.Nodes[1].size() - 1) * (grid.Nodes[2].size() - 1),
       static_cast<float>(Extinction(extinction)));
-    description.Grids = { grid };
-    description.Emitters = { TableSign() };
+    description.Grids = {grid};
+    description.Emitters = {TableSign()};
     // Only the direct part is read: what is scattered need not converge.
     const Solved solved(description, 1.0);
     for (std::size_t row = 0; row < table.Rows(); ++row)
@@ -77,7 +76,7 @@ TEST(AreaLight, DirectFluence)
       const std::int64_t cell = solved.TheScene->Smoke().Locate(point);
       ASSERT_GE(cell, 0);
       report::Relative("K " + table.Text(row, "K") + " at " + table.Text(row, "x") + " " +
-          table.Text(row, "y") + " " + table.Text(row, "z"),
+                         table.Text(row, "y") + " " + table.Text(row, "z"),
         table.Number(row, "G0"), solved.Field->DirectFluence[static_cast<std::size_t>(cell)], 1e-3);
     }
   }
@@ -91,19 +90,20 @@ TEST(AreaLight, DirectIlluminance)
   for (std::size_t row = 0; row < table.Rows(); ++row)
   {
     const Vec3 point(table.Number(row, "x"), table.Number(row, "y"), table.Number(row, "z"));
-    for (const bool facing : { true, false })
+    for (const bool facing : {true, false})
     {
       SceneDescription description;
       description.Albedo = 0.0;
-      description.Grids = { scenes::UniformSmoke(
-        { -1, -3, 0 }, { 4, 1, 11 }, { 1, 1, 1 }, Extinction(table.Number(row, "K"))) };
-      description.Emitters = { TableSign() };
+      description.Grids = {scenes::UniformSmoke(
+        {-1, -3, 0}, {4, 1, 11}, {1, 1, 1}, Extinction(table.Number(row, "K")))};
+      description.Emitters = {TableSign()};
       const Vec3 u = facing ? Vec3(0, 0.01, 0) : Vec3(0, 0, 0.01);
       const Vec3 v = Vec3(0.01, 0, 0);
       scenes::AddRectangle(description.Surfaces, point - 0.5 * (u + v), u, v, 1, 1, 0.0);
       const Solved solved(description);
       report::Relative(std::string(facing ? "facing" : "up") + " K " + table.Text(row, "K") +
-          " at " + table.Text(row, "x") + " " + table.Text(row, "y") + " " + table.Text(row, "z"),
+                         " at " + table.Text(row, "x") + " " + table.Text(row, "y") + " " +
+                         table.Text(row, "z"),
         table.Number(row, facing ? "H_facing" : "H_up"), solved.Field->DirectIlluminance[0], 1e-3);
     }
   }

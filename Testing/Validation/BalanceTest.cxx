@@ -20,15 +20,14 @@ SceneDescription FurnishedRoom(double albedo, double extinction)
   const Vec3 upper(4, 3, 2.5);
   if (extinction > 0.0)
   {
-    scene.Grids = { scenes::NoisySmoke(
-      Vec3(0.0), upper, { 24, 18, 15 }, 0.5 * extinction, 1.5 * extinction, 2) };
+    scene.Grids = {
+      scenes::NoisySmoke(Vec3(0.0), upper, {24, 18, 15}, 0.5 * extinction, 1.5 * extinction, 2)};
   }
   scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, 0.5);
-  scenes::AddBlock(scene.Surfaces, { 1.5, 1, 0 }, { 2, 1.5, 1 }, 0.25, 0.3);
+  scenes::AddBlock(scene.Surfaces, {1.5, 1, 0}, {2, 1.5, 1}, 0.25, 0.3);
   scene.Emitters =
-    scenes::Barcode({ 4, 1.5, 1.875 }, { -1, 0, 0 }, { 0, 0, 1 }, 0.5, 0.25, 5, 100.0, 0, 0.1);
-  scene.Emitters.push_back(
-    scenes::Plate({ 1, 1, 2 }, { 0, 0, -1 }, { 1, 0, 0 }, 0.5, 0.5, 20.0, 0.6));
+    scenes::Barcode({4, 1.5, 1.875}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.25, 5, 100.0, 0, 0.1);
+  scene.Emitters.push_back(scenes::Plate({1, 1, 2}, {0, 0, -1}, {1, 0, 0}, 0.5, 0.5, 20.0, 0.6));
   return scene;
 }
 
@@ -64,13 +63,13 @@ SceneDescription TwoSquares(bool firstEmits)
   SceneDescription scene;
   scene.Albedo = 0.7;
   const Vec3 upper(3, 2, 2);
-  scene.Grids = { scenes::NoisySmoke(Vec3(0.0), upper, { 15, 10, 10 }, 0.3, 1.0, 4) };
+  scene.Grids = {scenes::NoisySmoke(Vec3(0.0), upper, {15, 10, 10}, 0.3, 1.0, 4)};
   scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.5, 0.4);
-  scenes::AddBlock(scene.Surfaces, { 1.4, 0.8, 0 }, { 1.6, 1.4, 1.1 }, 0.5, 0.4);
-  scene.Emitters = { scenes::Plate({ 0.5, 1, 1 }, { 1, 0, 0 }, { 0, 0, 1 }, 0.6, 0.4,
-                       firstEmits ? 1.0 : 0.0, 0.0),
-    scenes::Plate({ 2.5, 0.7, 1.2 }, glm::normalize(Vec3(-1, 0.2, 0)), { 0, 0, 1 }, 0.3, 0.5,
-      firstEmits ? 0.0 : 1.0, 0.0) };
+  scenes::AddBlock(scene.Surfaces, {1.4, 0.8, 0}, {1.6, 1.4, 1.1}, 0.5, 0.4);
+  scene.Emitters = {
+    scenes::Plate({0.5, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.6, 0.4, firstEmits ? 1.0 : 0.0, 0.0),
+    scenes::Plate({2.5, 0.7, 1.2}, glm::normalize(Vec3(-1, 0.2, 0)), {0, 0, 1}, 0.3, 0.5,
+      firstEmits ? 0.0 : 1.0, 0.0)};
   return scene;
 }
 
@@ -89,8 +88,8 @@ TEST(Balance, ReciprocityOfTwoPatches)
   // Both sides are quadratures over partly hidden plates, refined to a few permille.
   report::Relative("direct", areaOfFirst * back.Field->DirectIlluminance[onFirst],
     areaOfSecond * there.Field->DirectIlluminance[onSecond], 0.01);
-  const Estimate forth = there.Illuminance({ second }, 0);
-  const Estimate home = back.Illuminance({ first }, 0);
+  const Estimate forth = there.Illuminance({second}, 0);
+  const Estimate home = back.Illuminance({first}, 0);
   report::Relative("in all", areaOfFirst * home.Mean, areaOfSecond * forth.Mean, 0.01,
     std::hypot(areaOfFirst * home.StandardError, areaOfSecond * forth.StandardError));
 }
@@ -110,8 +109,8 @@ TEST(Balance, Superposition)
   const Solved solvedBoth(both);
   const Solved solvedSign(sign);
   const Solved solvedLamp(lamp);
-  const auto largestChange = [](const std::vector<float>& sum, const std::vector<float>& a,
-                               const std::vector<float>& b)
+  const auto largestChange =
+    [](const std::vector<float>& sum, const std::vector<float>& a, const std::vector<float>& b)
   {
     double worst = 0.0;
     for (std::size_t i = 0; i < sum.size(); ++i)

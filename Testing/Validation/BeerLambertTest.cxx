@@ -1,6 +1,6 @@
 // Attenuation through many cells of different smoke: an analytic sum.
-#include "Solved.h"
 #include "SceneLibrary.h"
+#include "Solved.h"
 #include "TestReport.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ double AnalyticDepth(const SmokeGrid& grid, const Vec3& from, const Vec3& to)
     {
       for (std::size_t i = 1; i < grid.Nodes[0].size(); ++i, ++cell)
       {
-        const std::array<std::size_t, 3> index = { i, j, k };
+        const std::array<std::size_t, 3> index = {i, j, k};
         double enter = 0.0;
         double leave = 1.0;
         for (int axis = 0; axis < 3; ++axis)
@@ -39,17 +39,16 @@ double AnalyticDepth(const SmokeGrid& grid, const Vec3& from, const Vec3& to)
   return depth;
 }
 
-// Rounding of sums of a few hundred pieces in double precision is far below 1e-6; that figure leaves
-// room for float cell values only.
+// Rounding of sums of a few hundred pieces in double precision is far below 1e-6; that figure
+// leaves room for float cell values only.
 TEST(BeerLambert, SignThroughHeterogeneousSmoke)
 {
   report::Head("Beer-Lambert through 40 x 20 x 20 random cells");
   SceneDescription description;
   description.Albedo = 0.0;
-  description.Grids = { scenes::NoisySmoke(
-    Vec3(0.0), Vec3(6, 3, 3), { 40, 20, 20 }, 0.0, 2.0, 3) };
-  description.Emitters = { scenes::Plate(
-    { 6, 1.5, 1.5 }, { -1, 0, 0 }, { 0, 0, 1 }, 0.4, 0.4, 100.0, 0.0, 0) };
+  description.Grids = {scenes::NoisySmoke(Vec3(0.0), Vec3(6, 3, 3), {40, 20, 20}, 0.0, 2.0, 3)};
+  description.Emitters = {
+    scenes::Plate({6, 1.5, 1.5}, {-1, 0, 0}, {0, 0, 1}, 0.4, 0.4, 100.0, 0.0, 0)};
   const SmokeGrid grid = description.Grids[0];
   const Solved solved(description);
   Pcg32 random(1, 1);
@@ -57,7 +56,7 @@ TEST(BeerLambert, SignThroughHeterogeneousSmoke)
   {
     const Vec3 eye(3.0 * random.Uniform(), 3.0 * random.Uniform(), 3.0 * random.Uniform());
     const Vec3 target(6.0, 1.3 + 0.4 * random.Uniform(), 1.3 + 0.4 * random.Uniform());
-    const RayLight light = solved.Trace({ eye, glm::normalize(target - eye) });
+    const RayLight light = solved.Trace({eye, glm::normalize(target - eye)});
     const double depth = AnalyticDepth(grid, eye, target);
     const std::string name = "ray " + std::to_string(i);
     report::Relative(name + " optical depth", depth, light.OpticalDepth, 1e-6);
@@ -69,12 +68,12 @@ TEST(BeerLambert, SignThroughHeterogeneousSmoke)
 TEST(BeerLambert, ExtremeDepths)
 {
   report::Head("Beer-Lambert at extreme depths, 4 m path");
-  for (const double extinction : { 0.0, 1e-30, 1e-9, 10.0, 2.5e5 })
+  for (const double extinction : {0.0, 1e-30, 1e-9, 10.0, 2.5e5})
   {
     SceneDescription description = scenes::Tunnel(extinction, 0.0);
     const Solved solved(description);
     const Vec3 eye = scenes::TunnelEye;
-    const RayLight light = solved.Trace({ eye, { 1, 0, 0 } });
+    const RayLight light = solved.Trace({eye, {1, 0, 0}});
     const double depth = static_cast<float>(extinction) * 3.999;
     report::Relative("optical depth", depth, light.OpticalDepth, 1e-6);
     report::Relative("luminance", std::exp(-depth), light.Total(), 1e-6);

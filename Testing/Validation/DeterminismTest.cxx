@@ -12,8 +12,7 @@ namespace
 
 using namespace smokevis;
 
-template <class T>
-bool SameBits(const std::vector<T>& a, const std::vector<T>& b)
+template <class T> bool SameBits(const std::vector<T>& a, const std::vector<T>& b)
 {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }

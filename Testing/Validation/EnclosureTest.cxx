@@ -1,5 +1,5 @@
-// Two-dimensional square with one emitting wall (Crosbie and Schrenker 1984): a long box read at its
-// middle.
+// Two-dimensional square with one emitting wall (Crosbie and Schrenker 1984): a long box read at
+// its middle.
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -16,23 +16,23 @@ constexpr double Pi = std::numbers::pi;
 constexpr int Across = 25;
 constexpr int Along = 16;
 
-/// The square's walls are y = 0 (emitting, luminance 1) and three black ones; the box is 16 m long, open
-/// at its ends, which lie eight mean free paths or more from the middle.
+/// The square's walls are y = 0 (emitting, luminance 1) and three black ones; the box is 16 m long,
+/// open at its ends, which lie eight mean free paths or more from the middle.
 SceneDescription SquareBox(double opticalSide, double albedo)
 {
   SceneDescription scene;
   scene.Albedo = albedo;
   const double half = 0.5 * Along / std::min(1.0, opticalSide);
-  scene.Grids = { scenes::UniformSmoke(
-    { 0, 0, -half }, { 1, 1, half }, { Across, Across, Along }, opticalSide) };
+  scene.Grids = {
+    scenes::UniformSmoke({0, 0, -half}, {1, 1, half}, {Across, Across, Along}, opticalSide)};
   const Vec3 x(1, 0, 0);
   const Vec3 y(0, 1, 0);
   const Vec3 z(0, 0, 2.0 * half);
   // Fronts inwards: side wall x = 0, side wall x = 1, opposite wall y = 1.
-  scenes::AddRectangle(scene.Surfaces, { 0, 0, -half }, y, z, Across, Along, 0.0);
-  scenes::AddRectangle(scene.Surfaces, { 1, 0, -half }, z, y, Along, Across, 0.0);
-  scenes::AddRectangle(scene.Surfaces, { 0, 1, -half }, x, z, Across, Along, 0.0);
-  scene.Emitters = scenes::EmittingRectangle({ 0, 0, -half }, z, x, Along, Across, 1.0, 0.0);
+  scenes::AddRectangle(scene.Surfaces, {0, 0, -half}, y, z, Across, Along, 0.0);
+  scenes::AddRectangle(scene.Surfaces, {1, 0, -half}, z, y, Along, Across, 0.0);
+  scenes::AddRectangle(scene.Surfaces, {0, 1, -half}, x, z, Across, Along, 0.0);
+  scene.Emitters = scenes::EmittingRectangle({0, 0, -half}, z, x, Along, Across, 1.0, 0.0);
   return scene;
 }
 
@@ -42,9 +42,9 @@ std::vector<std::int64_t> CellsAt(double x, double y)
   const int i = static_cast<int>(x * Across);
   const int j = static_cast<int>(y * Across);
   std::vector<std::int64_t> cells;
-  for (const int k : { Along / 2 - 1, Along / 2 })
+  for (const int k : {Along / 2 - 1, Along / 2})
   {
-    for (const int column : { i, Across - 1 - i })
+    for (const int column : {i, Across - 1 - i})
     {
       cells.push_back(column + Across * (j + static_cast<std::int64_t>(Across) * k));
     }
@@ -57,7 +57,7 @@ std::vector<std::int64_t> CellsAt(double x, double y)
 void CheckProfiles(double opticalSide, double albedo)
 {
   report::Head("Square enclosure, mean radiance, side " + std::to_string(opticalSide) +
-    ", albedo " + std::to_string(albedo));
+               ", albedo " + std::to_string(albedo));
   const Solved solved(SquareBox(opticalSide, albedo));
   const report::ReferenceTable table("square2d_meanradiance_own.csv");
   for (std::size_t row = 0; row < table.Rows(); ++row)
@@ -65,16 +65,15 @@ void CheckProfiles(double opticalSide, double albedo)
     // Places of the table that are centres of cells.
     const double y = table.Number(row, "y_over_L");
     const int tenth = static_cast<int>(std::lround(10.0 * y));
-    if (table.Number(row, "optical_side") != opticalSide ||
-      table.Number(row, "omega") != albedo || tenth % 2 == 0)
+    if (table.Number(row, "optical_side") != opticalSide || table.Number(row, "omega") != albedo ||
+        tenth % 2 == 0)
     {
       continue;
     }
     const bool centre = table.Text(row, "line") == "centre x=0.5";
     const Estimate fluence = solved.Fluence(CellsAt(centre ? 0.5 : 0.1, y));
     report::Relative(table.Text(row, "line") + " y " + table.Text(row, "y_over_L"),
-      table.Number(row, "M"), fluence.Mean / (4.0 * Pi), 0.01,
-      fluence.StandardError / (4.0 * Pi));
+      table.Number(row, "M"), fluence.Mean / (4.0 * Pi), 0.01, fluence.StandardError / (4.0 * Pi));
   }
   const report::ReferenceTable fluxes("square2d_wallflux_own.csv");
   for (std::size_t row = 0; row < fluxes.Rows(); ++row)
@@ -82,14 +81,14 @@ void CheckProfiles(double opticalSide, double albedo)
     const double s = fluxes.Number(row, "s");
     const int tenth = static_cast<int>(std::lround(10.0 * s));
     if (fluxes.Number(row, "optical_side") != opticalSide ||
-      fluxes.Number(row, "omega") != albedo || tenth % 2 == 0)
+        fluxes.Number(row, "omega") != albedo || tenth % 2 == 0)
     {
       continue;
     }
     const auto place = static_cast<std::size_t>(s * Across);
     std::vector<std::size_t> side;
     std::vector<std::size_t> opposite;
-    for (const std::size_t k : { Along / 2 - 1, Along / 2 })
+    for (const std::size_t k : {Along / 2 - 1, Along / 2})
     {
       side.push_back(place + Across * k);
       side.push_back(Across * Along + k + Along * place);
@@ -100,8 +99,8 @@ void CheckProfiles(double opticalSide, double albedo)
     const std::string name = " at " + fluxes.Text(row, "s");
     report::Relative("side wall" + name, fluxes.Number(row, "H_side"), onSide.Mean / Pi, 0.01,
       onSide.StandardError / Pi);
-    report::Relative("opposite wall" + name, fluxes.Number(row, "H_opposite"),
-      onOpposite.Mean / Pi, 0.01, onOpposite.StandardError / Pi);
+    report::Relative("opposite wall" + name, fluxes.Number(row, "H_opposite"), onOpposite.Mean / Pi,
+      0.01, onOpposite.StandardError / Pi);
   }
 }
 

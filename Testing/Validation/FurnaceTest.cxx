@@ -20,11 +20,11 @@ void CheckUniform(const Solved& solved, double exact, double tolerance, const st
   Pcg32 random(5, 5);
   for (int i = 0; i < 3; ++i)
   {
-    const Vec3 origin = lower +
-      size * Vec3(0.1 + 0.8 * random.Uniform(), 0.1 + 0.8 * random.Uniform(),
-        0.1 + 0.8 * random.Uniform());
+    const Vec3 origin =
+      lower + size * Vec3(0.1 + 0.8 * random.Uniform(), 0.1 + 0.8 * random.Uniform(),
+                       0.1 + 0.8 * random.Uniform());
     const Vec3 target = lower + size * Vec3(random.Uniform(), random.Uniform(), 1.0);
-    const Estimate seen = solved.Luminance({ origin, glm::normalize(target - origin) });
+    const Estimate seen = solved.Luminance({origin, glm::normalize(target - origin)});
     report::Relative(name + " luminance", exact, seen.Mean, tolerance, seen.StandardError);
   }
   std::vector<std::size_t> patches(solved.TheScene->Patches());
@@ -48,32 +48,31 @@ void CheckUniform(const Solved& solved, double exact, double tolerance, const st
   }
 }
 
-// Walls emit 1 and reflect rho, smoke loses nothing: L = 1 / (1 - rho) everywhere. 0.2 % is what the
-// solver's sources of error that are not noise (quadrature of the direct light) may take.
+// Walls emit 1 and reflect rho, smoke loses nothing: L = 1 / (1 - rho) everywhere. 0.2 % is what
+// the solver's sources of error that are not noise (quadrature of the direct light) may take.
 TEST(Furnace, WhiteBoxWithoutSmoke)
 {
   report::Head("White furnace, no smoke");
-  for (const double rho : { 0.0, 0.2, 0.5, 0.8, 0.9 })
+  for (const double rho : {0.0, 0.2, 0.5, 0.8, 0.9})
   {
     SceneDescription description;
     description.Emitters = scenes::EmittingRoom(Vec3(0.0), Vec3(2, 1, 1), 4, 1.0, rho);
-    CheckUniform(Solved(description), 1.0 / (1.0 - rho), 0.002,
-      "rho " + std::to_string(rho).substr(0, 3));
+    CheckUniform(
+      Solved(description), 1.0 / (1.0 - rho), 0.002, "rho " + std::to_string(rho).substr(0, 3));
   }
 }
 
 TEST(Furnace, WhiteBoxWithScatteringSmoke)
 {
   report::Head("White furnace, smoke of albedo 1, extinction 0.1 to 3");
-  for (const double rho : { 0.0, 0.2, 0.5, 0.8, 0.9 })
+  for (const double rho : {0.0, 0.2, 0.5, 0.8, 0.9})
   {
     SceneDescription description;
     description.Albedo = 1.0;
-    description.Grids = { scenes::NoisySmoke(
-      Vec3(0.0), Vec3(2, 1, 1), { 12, 6, 6 }, 0.1, 3.0, 5) };
+    description.Grids = {scenes::NoisySmoke(Vec3(0.0), Vec3(2, 1, 1), {12, 6, 6}, 0.1, 3.0, 5)};
     description.Emitters = scenes::EmittingRoom(Vec3(0.0), Vec3(2, 1, 1), 4, 1.0, rho);
-    CheckUniform(Solved(description), 1.0 / (1.0 - rho), 0.002,
-      "rho " + std::to_string(rho).substr(0, 3));
+    CheckUniform(
+      Solved(description), 1.0 / (1.0 - rho), 0.002, "rho " + std::to_string(rho).substr(0, 3));
   }
 }
 
@@ -81,26 +80,24 @@ TEST(Furnace, WhiteBoxWithScatteringSmoke)
 TEST(Furnace, EmittingSmokeAtTheWallsLuminance)
 {
   report::Head("Smoke and walls of one luminance");
-  for (const double albedo : { 0.0, 0.5, 0.9 })
+  for (const double albedo : {0.0, 0.5, 0.9})
   {
     SceneDescription description;
     description.Albedo = albedo;
-    description.Grids = { scenes::NoisySmoke(
-      Vec3(0.0), Vec3(2, 1, 1), { 12, 6, 6 }, 0.1, 3.0, 5) };
+    description.Grids = {scenes::NoisySmoke(Vec3(0.0), Vec3(2, 1, 1), {12, 6, 6}, 0.1, 3.0, 5)};
     description.Grids[0].EmittedLuminance.assign(12 * 6 * 6, 1.0F);
     description.Emitters = scenes::EmittingRoom(Vec3(0.0), Vec3(2, 1, 1), 4, 1.0, 0.0);
     const Solved solved(description);
-    const Estimate seen =
-      solved.Luminance({ { 0.2, 0.4, 0.3 }, glm::normalize(Vec3(1.0, 0.2, 0.3)) });
-    report::Relative("albedo " + std::to_string(albedo).substr(0, 3) + " luminance", 1.0,
-      seen.Mean, 0.002, seen.StandardError);
+    const Estimate seen = solved.Luminance({{0.2, 0.4, 0.3}, glm::normalize(Vec3(1.0, 0.2, 0.3))});
+    report::Relative("albedo " + std::to_string(albedo).substr(0, 3) + " luminance", 1.0, seen.Mean,
+      0.002, seen.StandardError);
   }
 }
 
 // A sphere with smoke that only absorbs. 80 triangles stand for it, whose mean chord 4 V / S is the
-// sphere's: K, the mean transmittance of chords, is then right to first order in the optical depth. By
-// the reference integrator L = 1 / (1 - a K) is 0.34 % larger in the polyhedron of depth 1 and 0.05 %
-// in that of depth 0.1.
+// sphere's: K, the mean transmittance of chords, is then right to first order in the optical depth.
+// By the reference integrator L = 1 / (1 - a K) is 0.34 % larger in the polyhedron of depth 1 and
+// 0.05 % in that of depth 0.1.
 TEST(Furnace, AbsorbingSphere)
 {
   report::Head("Furnace sphere with absorbing smoke");
@@ -115,7 +112,7 @@ TEST(Furnace, AbsorbingSphere)
     }
     SceneDescription description;
     description.Albedo = 0.0;
-    description.Grids = { scenes::UniformSmoke(Vec3(-1.1), Vec3(1.1), { 1, 1, 1 }, depth) };
+    description.Grids = {scenes::UniformSmoke(Vec3(-1.1), Vec3(1.1), {1, 1, 1}, depth)};
     description.Emitters = scenes::EmittingSphere(Vec3(0.0), 1.0, 1, true, 1.0, rho);
     const Solved solved(description);
     // Facets lie at different distances: what is seen of them is taken back through the smoke.
@@ -127,7 +124,7 @@ TEST(Furnace, AbsorbingSphere)
       const double z = 1.0 - 2.0 * random.Uniform();
       const double azimuth = 2.0 * Pi * random.Uniform();
       const double r = std::sqrt(1.0 - z * z);
-      const Ray ray{ Vec3(0.0), { r * std::cos(azimuth), r * std::sin(azimuth), z } };
+      const Ray ray{Vec3(0.0), {r * std::cos(azimuth), r * std::sin(azimuth), z}};
       const RayLight light = solved.Trace(ray);
       const double back = std::exp(light.OpticalDepth) / Directions;
       wall.Mean += back * light.Total();

@@ -1,4 +1,5 @@
-// Kobayashi's problem 1: a source cube in a void cube in a shield, eight octants of it (OECD/NEA 2000).
+// Kobayashi's problem 1: a source cube in a void cube in a shield, eight octants of it (OECD/NEA
+// 2000).
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -19,7 +20,7 @@ SceneDescription Problem1(double albedo)
   scene.Albedo = albedo;
   // Cells of 10 / 3 m: the points of the table, at odd multiples of 5 m, are centres of cells.
   constexpr int Cells = 60;
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(-100.0), Vec3(100.0), { Cells, Cells, Cells }, 0.0);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(-100.0), Vec3(100.0), {Cells, Cells, Cells}, 0.0);
   grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
   std::size_t cell = 0;
   for (int k = 0; k < Cells; ++k)
@@ -28,8 +29,8 @@ SceneDescription Problem1(double albedo)
     {
       for (int i = 0; i < Cells; ++i, ++cell)
       {
-        const int out = std::max({ std::abs(2 * i + 1 - Cells), std::abs(2 * j + 1 - Cells),
-          std::abs(2 * k + 1 - Cells) });
+        const int out = std::max(
+          {std::abs(2 * i + 1 - Cells), std::abs(2 * j + 1 - Cells), std::abs(2 * k + 1 - Cells)});
         const bool source = out < 6;
         const bool isVoid = !source && out < 30;
         grid.Extinction[cell] = isVoid ? 1e-4F : 0.1F;
@@ -41,7 +42,7 @@ SceneDescription Problem1(double albedo)
       }
     }
   }
-  scene.Grids = { grid };
+  scene.Grids = {grid};
   return scene;
 }
 
@@ -66,7 +67,7 @@ Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
   {
     sum[batch] = static_cast<float>(total[static_cast<std::size_t>(batch)]);
   }
-  return { Mean(sum), StandardError(sum) };
+  return {Mean(sum), StandardError(sum)};
 }
 
 // Pure absorber: only the view's line integrals count, which are exact; the lattice of 400000
@@ -81,7 +82,7 @@ TEST(Kobayashi, PureAbsorberLong)
     const Vec3 point(table.Number(row, "x"), table.Number(row, "y"), table.Number(row, "z"));
     const Estimate fluence = FluenceByViews(solved, point, 400000);
     report::Relative(table.Text(row, "line") + " " + table.Text(row, "x") + " " +
-        table.Text(row, "y") + " " + table.Text(row, "z"),
+                       table.Text(row, "y") + " " + table.Text(row, "z"),
       table.Number(row, "phi_i_ref"), fluence.Mean, 0.005, fluence.StandardError);
   }
 }
@@ -99,7 +100,7 @@ TEST(Kobayashi, HalfScatteringLong)
     const Estimate fluence = FluenceByViews(solved, point, 100000);
     const double reference = table.Number(row, "phi_ii_ref");
     report::Relative(table.Text(row, "line") + " " + table.Text(row, "x") + " " +
-        table.Text(row, "y") + " " + table.Text(row, "z"),
+                       table.Text(row, "y") + " " + table.Text(row, "z"),
       reference, fluence.Mean, 0.02,
       std::hypot(fluence.StandardError, reference * table.Number(row, "relsd_ii_ref")));
   }

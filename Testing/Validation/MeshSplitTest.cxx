@@ -18,22 +18,21 @@ struct Key
   bool operator<(const Key& other) const
   {
     return std::tuple(this->Centre.x, this->Centre.y, this->Centre.z) <
-      std::tuple(other.Centre.x, other.Centre.y, other.Centre.z);
+           std::tuple(other.Centre.x, other.Centre.y, other.Centre.z);
   }
 };
 
 // The same cells, only numbered otherwise: all that may differ is the rounding of sums.
 TEST(MeshSplit, SameNumbersAsOneMesh)
 {
-  for (const int axis : { 0, 2 })
+  for (const int axis : {0, 2})
   {
     report::Head(std::string("One mesh cut in two across ") + "xyz"[axis]);
     SceneDescription whole = scenes::Tunnel(1.0, 0.9);
-    whole.Grids = { scenes::NoisySmoke(
-      Vec3(0.0), Vec3(4, 1, 1), { 40, 10, 10 }, 0.5, 1.5, 11) };
+    whole.Grids = {scenes::NoisySmoke(Vec3(0.0), Vec3(4, 1, 1), {40, 10, 10}, 0.5, 1.5, 11)};
     SceneDescription cut = whole;
     const auto parts = scenes::Split(whole.Grids[0], axis, axis == 0 ? 17 : 4);
-    cut.Grids = { parts.first, parts.second };
+    cut.Grids = {parts.first, parts.second};
     const Solved one(whole);
     const Solved two(cut);
 
@@ -42,31 +41,32 @@ TEST(MeshSplit, SameNumbersAsOneMesh)
     for (std::size_t i = 0; i < smoke.Cells(); ++i)
     {
       const auto cell = static_cast<std::int64_t>(i);
-      cellAt[{ smoke.CellCentre(cell) }] = cell;
+      cellAt[{smoke.CellCentre(cell)}] = cell;
     }
     double worstDirect = 0.0;
     double worstTotal = 0.0;
     for (std::size_t i = 0; i < two.TheScene->Smoke().Cells(); ++i)
     {
       const auto cell = static_cast<std::int64_t>(i);
-      const auto same = cellAt.find({ two.TheScene->Smoke().CellCentre(cell) });
+      const auto same = cellAt.find({two.TheScene->Smoke().CellCentre(cell)});
       ASSERT_NE(same, cellAt.end());
       const double a = one.Field->DirectFluence[static_cast<std::size_t>(same->second)];
       const double b = two.Field->DirectFluence[i];
       worstDirect = std::max(worstDirect, std::abs(a - b) / a);
-      const double c = one.Fluence(std::vector{ same->second }).Mean;
-      const double d = two.Fluence(std::vector{ cell }).Mean;
+      const double c = one.Fluence(std::vector{same->second}).Mean;
+      const double d = two.Fluence(std::vector{cell}).Mean;
       worstTotal = std::max(worstTotal, std::abs(c - d) / c);
     }
     report::Absolute("largest relative change, direct fluence", 0.0, worstDirect, 1e-6);
-    // Sums of float tallies, taken in another order, keep 1e-6 each; sweeps feed back on themselves.
+    // Sums of float tallies, taken in another order, keep 1e-6 each; sweeps feed back on
+    // themselves.
     report::Absolute("largest relative change, fluence", 0.0, worstTotal, 1e-5);
 
     const Vec3 eye = scenes::TunnelEye;
-    const RayLight rayOne = one.Trace({ eye, glm::normalize(Vec3(4, 0.7, 0.6) - eye) });
-    const RayLight rayTwo = two.Trace({ eye, glm::normalize(Vec3(4, 0.7, 0.6) - eye) });
+    const RayLight rayOne = one.Trace({eye, glm::normalize(Vec3(4, 0.7, 0.6) - eye)});
+    const RayLight rayTwo = two.Trace({eye, glm::normalize(Vec3(4, 0.7, 0.6) - eye)});
     report::Relative("optical depth", rayOne.OpticalDepth, rayTwo.OpticalDepth, 1e-6);
-    const Observer observer{ 0.0 };
+    const Observer observer{0.0};
     const SignMeasurement a = MeasureSign(*one.TheView, 0, eye, observer);
     const SignMeasurement b = MeasureSign(*two.TheView, 0, eye, observer);
     report::Relative("lit luminance", a.LitLuminance, b.LitLuminance, 1e-6);

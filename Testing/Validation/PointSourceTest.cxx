@@ -13,17 +13,17 @@ namespace
 using namespace smokevis;
 constexpr double Pi = std::numbers::pi;
 
-/// A small icosahedron of Lambertian faces that stands for a point source. Its intensity in a direction
-/// is luminance times projected area; by Cauchy's theorem the mean of that is a quarter of the surface.
+/// A small icosahedron of Lambertian faces that stands for a point source. Its intensity in a
+/// direction is luminance times projected area; by Cauchy's theorem the mean of that is a quarter
+/// of the surface.
 std::vector<EmitterCell> PointSource(const Vec3& centre, double radius, double intensity)
 {
   std::vector<EmitterCell> cells = scenes::EmittingSphere(centre, radius, 0, false, 1.0, 0.0);
   double area = 0.0;
   for (const EmitterCell& cell : cells)
   {
-    area += 0.5 *
-      glm::length(glm::cross(
-        cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]));
+    area += 0.5 * glm::length(glm::cross(
+                    cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]));
   }
   for (EmitterCell& cell : cells)
   {
@@ -38,15 +38,15 @@ double Intensity(const std::vector<EmitterCell>& source, const Vec3& direction)
   double sum = 0.0;
   for (const EmitterCell& cell : source)
   {
-    const Vec3 area = 0.5 *
-      glm::cross(cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]);
+    const Vec3 area =
+      0.5 * glm::cross(cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]);
     sum += cell.Luminance[0] * std::max(0.0, glm::dot(area, direction));
   }
   return sum;
 }
 
-/// Airlight of the icosahedron over that of an isotropic source of the same mean intensity 1, by the
-/// midpoint rule over the angle at the source, in which the integrand is smooth.
+/// Airlight of the icosahedron over that of an isotropic source of the same mean intensity 1, by
+/// the midpoint rule over the angle at the source, in which the integrand is smooth.
 double ShapeFactor(
   const std::vector<EmitterCell>& source, const Vec3& at, const Vec3& direction, double length)
 {
@@ -79,14 +79,13 @@ TEST(PointSource, AirlightOfSingleScattering)
   const report::ReferenceTable table("airlight_single_scatter_point.csv");
   constexpr double Albedo = 0.001;
   // Farther off, cells of one mean free path blur what the light does between their centres.
-  for (const double distance : { 0.5, 1.0, 2.0 })
+  for (const double distance : {0.5, 1.0, 2.0})
   {
     SceneDescription description;
     description.Albedo = Albedo;
-    // Eye at the origin, source on the x axis, rays in the plane z = 0. No ray or way from the source
-    // to it leaves the smoke.
-    description.Grids = { scenes::UniformSmoke(
-      { -20, -3, -3 }, { 20, 20, 3 }, { 40, 23, 6 }, 1.0) };
+    // Eye at the origin, source on the x axis, rays in the plane z = 0. No ray or way from the
+    // source to it leaves the smoke.
+    description.Grids = {scenes::UniformSmoke({-20, -3, -3}, {20, 20, 3}, {40, 23, 6}, 1.0)};
     const Vec3 at(distance, 0, 0);
     description.Emitters = PointSource(at, 0.002, 1.0);
     // The second order is nearly nothing: half of it would do.
@@ -95,7 +94,7 @@ TEST(PointSource, AirlightOfSingleScattering)
     {
       const double angle = table.Number(row, "gamma_deg");
       if (table.Number(row, "T_sv") != distance ||
-        (angle != 15.0 && angle != 60.0 && angle != 120.0))
+          (angle != 15.0 && angle != 60.0 && angle != 120.0))
       {
         continue;
       }
@@ -103,41 +102,41 @@ TEST(PointSource, AirlightOfSingleScattering)
       const double length = std::min(15.0, table.Number(row, "T_vp"));
       const Vec3 direction(std::cos(angle * Pi / 180.0), std::sin(angle * Pi / 180.0), 0.0);
       const RayLight light = solved.TheView->TraceVeil(Vec3(0.0), direction, 0.0, length, 0);
-      const double reference = table.Number(row, "Lhat_direct") *
-        ShapeFactor(description.Emitters, at, direction, length);
+      const double reference =
+        table.Number(row, "Lhat_direct") * ShapeFactor(description.Emitters, at, direction, length);
       report::Relative("distance " + table.Text(row, "T_sv") + " angle " +
-          table.Text(row, "gamma_deg") + " depth " + table.Text(row, "T_vp"),
+                         table.Text(row, "gamma_deg") + " depth " + table.Text(row, "T_vp"),
         reference, light.Veil() / Albedo, 0.01, StandardError(light.VeilMultiple) / Albedo);
     }
   }
 }
 
-// Fluence of 1 lm in an infinite medium (Case, de Hoffmann and Placzek 1953), read on the axes at 1, 2
-// and 3 mean free paths in cells of 0.1; walls of the volume are ten mean free paths away. The
-// source's own neighbourhood is steep: cells grow with the distance to it. 2 % is for the flat sources
-// of the coarser cells.
+// Fluence of 1 lm in an infinite medium (Case, de Hoffmann and Placzek 1953), read on the axes at
+// 1, 2 and 3 mean free paths in cells of 0.1; walls of the volume are ten mean free paths away. The
+// source's own neighbourhood is steep: cells grow with the distance to it. 2 % is for the flat
+// sources of the coarser cells.
 TEST(PointSource, InfiniteMediumLong)
 {
   report::Head("Fluence of a point source in an infinite medium");
   const report::ReferenceTable table("infinite_medium_point_source.csv");
   std::vector<double> nodes;
-  for (const double at : { 0.05, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 0.95, 1.05, 1.3, 1.6, 1.95, 2.05,
-         2.5, 2.95, 3.05, 3.5, 4.0, 5.0, 6.0, 7.0, 8.5, 10.0 })
+  for (const double at : {0.05, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 0.95, 1.05, 1.3, 1.6, 1.95, 2.05,
+         2.5, 2.95, 3.05, 3.5, 4.0, 5.0, 6.0, 7.0, 8.5, 10.0})
   {
     nodes.push_back(at);
     nodes.push_back(-at);
   }
   std::sort(nodes.begin(), nodes.end());
-  for (const double albedo : { 0.5, 0.9 })
+  for (const double albedo : {0.5, 0.9})
   {
     SceneDescription description;
     description.Albedo = albedo;
     SmokeGrid grid;
     grid.Name = "smoke";
-    grid.Nodes = { nodes, nodes, nodes };
+    grid.Nodes = {nodes, nodes, nodes};
     const std::size_t size = nodes.size() - 1;
     grid.Extinction.assign(size * size * size, 1.0F);
-    description.Grids = { grid };
+    description.Grids = {grid};
     description.Emitters = PointSource(Vec3(0.0), 0.01, 0.25 / Pi);
     const Solved solved(description);
     for (std::size_t row = 0; row < table.Rows(); ++row)
@@ -150,7 +149,7 @@ TEST(PointSource, InfiniteMediumLong)
       std::vector<std::int64_t> cells;
       for (int axis = 0; axis < 3; ++axis)
       {
-        for (const double sign : { -1.0, 1.0 })
+        for (const double sign : {-1.0, 1.0})
         {
           Vec3 point(0.0);
           point[axis] = sign * r;

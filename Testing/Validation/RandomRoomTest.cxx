@@ -11,8 +11,8 @@ namespace
 
 using namespace smokevis;
 
-/// Contrast of a sign by path tracing a raster of points on its plate. Noise adds to the variance of
-/// the raster: its expectation, the mean square of the points' standard errors, is taken off.
+/// Contrast of a sign by path tracing a raster of points on its plate. Noise adds to the variance
+/// of the raster: its expectation, the mean square of the points' standard errors, is taken off.
 Estimate ReferenceContrast(const Solved& solved, const Vec3& eye, std::uint64_t samples)
 {
   const ReferenceIntegrator reference(*solved.TheScene);
@@ -36,9 +36,8 @@ Estimate ReferenceContrast(const Solved& solved, const Vec3& eye, std::uint64_t 
       {
         const double u = (point % Columns + random.Uniform()) / Columns;
         const double v = (point / Columns + random.Uniform()) / Rows;
-        const Vec3 at =
-          corner[0] + u * (corner[1] - corner[0]) + v * (corner[3] - corner[0]);
-        return Ray{ eye, glm::normalize(at - eye) };
+        const Vec3 at = corner[0] + u * (corner[1] - corner[0]) + v * (corner[3] - corner[0]);
+        return Ray{eye, glm::normalize(at - eye)};
       };
       const Estimate value =
         reference.MeanRadiance(draw, samples, static_cast<std::uint64_t>(points));
@@ -55,25 +54,25 @@ Estimate ReferenceContrast(const Solved& solved, const Vec3& eye, std::uint64_t 
   // The contrast's error is that of the mean, and of the spread, both of independent points.
   const double meanError = std::sqrt(litNoise) / points;
   const double contrast = spread / mean;
-  return { contrast, meanError / mean * std::hypot(1.0, contrast) };
+  return {contrast, meanError / mean * std::hypot(1.0, contrast)};
 }
 
 /// A point in the middle of a sign's cell, seen from the eye.
 Ray TowardsCell(const Solved& solved, const Vec3& eye, std::size_t cell)
 {
-  return { eye, glm::normalize(solved.TheScene->Lights().CellCentre(cell) - eye) };
+  return {eye, glm::normalize(solved.TheScene->Lights().CellCentre(cell) - eye)};
 }
 
-// Luminance within 1 % and contrast within 0.005, the project's promise, beside three joint standard
-// errors.
+// Luminance within 1 % and contrast within 0.005, the project's promise, beside three joint
+// standard errors.
 void CheckRoom(std::uint64_t seed, std::uint64_t samples)
 {
   const scenes::RandomRoom room = scenes::MakeRandomRoom(seed);
   const Solved solved(room.Description);
   const ReferenceIntegrator reference(*solved.TheScene);
   report::Head("Random room " + std::to_string(seed) + ", albedo " +
-    std::to_string(room.Description.Albedo) + ", largest extinction " +
-    std::to_string(solved.TheScene->Smoke().MaximumExtinction()));
+               std::to_string(room.Description.Albedo) + ", largest extinction " +
+               std::to_string(solved.TheScene->Smoke().MaximumExtinction()));
   const std::size_t cells = solved.TheScene->Lights().Signs()[0].Cells.size();
   for (std::size_t cell = 0; cell < std::min<std::size_t>(2, cells); ++cell)
   {
@@ -86,17 +85,16 @@ void CheckRoom(std::uint64_t seed, std::uint64_t samples)
     report::Relative(cell == 0 ? "lit cell" : "unlit cell", all.Mean, light.Total(), 0.01,
       std::hypot(all.StandardError, StandardError(light.TotalLanes())));
   }
-  const Vec3 corner =
-    solved.TheScene->Lower() + (solved.TheScene->Upper() - solved.TheScene->Lower()) *
-      Vec3(1.0, 0.3, 0.8);
-  const Ray aside{ room.Eye, glm::normalize(corner - room.Eye) };
+  const Vec3 corner = solved.TheScene->Lower() +
+                      (solved.TheScene->Upper() - solved.TheScene->Lower()) * Vec3(1.0, 0.3, 0.8);
+  const Ray aside{room.Eye, glm::normalize(corner - room.Eye)};
   const Estimate veilAside = reference.Veil(aside, samples, seed);
   const RayLight lightAside = solved.Trace(aside);
   report::Relative("veil aside of the sign", veilAside.Mean, lightAside.Veil(), 0.01,
     std::hypot(veilAside.StandardError, StandardError(lightAside.VeilMultiple)));
 
   const Estimate contrast = ReferenceContrast(solved, room.Eye, samples / 40);
-  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{ 0.0 });
+  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{0.0});
   report::Absolute("contrast", contrast.Mean, sign.Contrast, 0.005,
     std::hypot(contrast.StandardError, sign.ContrastError));
 }

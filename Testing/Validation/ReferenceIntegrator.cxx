@@ -23,7 +23,7 @@ Vec3 SphereDirection(Pcg32& random)
   const double z = 1.0 - 2.0 * random.Uniform();
   const double azimuth = 2.0 * Pi * random.Uniform();
   const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
-  return { r * std::cos(azimuth), r * std::sin(azimuth), z };
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
 /// Density cos / pi: the normal plus a point of the unit sphere.
@@ -43,8 +43,7 @@ Vec3 CosineDirection(const Vec3& normal, Pcg32& random)
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
-Pcg32::Pcg32(std::uint64_t seed, std::uint64_t stream)
-  : Increment_((stream << 1U) | 1U)
+Pcg32::Pcg32(std::uint64_t seed, std::uint64_t stream) : Increment_((stream << 1U) | 1U)
 {
   this->Next();
   this->State_ += seed;
@@ -63,9 +62,7 @@ std::uint32_t Pcg32::Next()
 
 //--------------------------------------------------------------------------------------------------
 ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, int band)
-  : Scene_(&scene)
-  , Band_(band)
-  , Scale_(scene.ExtinctionScale(band))
+    : Scene_(&scene), Band_(band), Scale_(scene.ExtinctionScale(band))
 {
   // Longer than any straight line between two things of the scene.
   this->Far_ = 4.0 * glm::length(scene.Upper() - scene.Lower()) + 1.0;
@@ -84,8 +81,7 @@ ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, int band)
       const double area =
         0.5 * glm::length(glm::cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
       this->TotalFlux_ += this->Exitance_.back() * area;
-      this->Lights_.push_back(
-        { { corners[0], corners[i - 1], corners[i] }, cell, this->TotalFlux_ });
+      this->Lights_.push_back({{corners[0], corners[i - 1], corners[i]}, cell, this->TotalFlux_});
     }
   }
 }
@@ -124,29 +120,31 @@ Estimate ReferenceIntegrator::Run(
   const auto count = static_cast<double>(samples);
   const double mean = sum / count;
   const double variance = std::max(0.0, square / count - mean * mean);
-  return { mean, std::sqrt(variance / std::max(1.0, count - 1.0)) };
+  return {mean, std::sqrt(variance / std::max(1.0, count - 1.0))};
 }
 
 //--------------------------------------------------------------------------------------------------
 Estimate ReferenceIntegrator::Radiance(
   const Ray& ray, std::uint64_t samples, std::uint64_t seed) const
 {
-  return this->Run(samples, seed, [&](Pcg32& random, Flight& flight)
+  return this->Run(samples, seed,
+    [&](Pcg32& random, Flight& flight)
     { return this->RadianceSample(ray, false, random, flight); });
 }
 
 //--------------------------------------------------------------------------------------------------
 Estimate ReferenceIntegrator::Veil(const Ray& ray, std::uint64_t samples, std::uint64_t seed) const
 {
-  return this->Run(samples, seed, [&](Pcg32& random, Flight& flight)
-    { return this->RadianceSample(ray, true, random, flight); });
+  return this->Run(samples, seed,
+    [&](Pcg32& random, Flight& flight) { return this->RadianceSample(ray, true, random, flight); });
 }
 
 //--------------------------------------------------------------------------------------------------
 Estimate ReferenceIntegrator::MeanRadiance(
   const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const
 {
-  return this->Run(samples, seed, [&](Pcg32& random, Flight& flight)
+  return this->Run(samples, seed,
+    [&](Pcg32& random, Flight& flight)
     { return this->RadianceSample(draw(random), false, random, flight); });
 }
 
@@ -161,17 +159,19 @@ Estimate ReferenceIntegrator::Fluence(
 Estimate ReferenceIntegrator::MeanFluence(
   const std::function<Vec3(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const
 {
-  return this->Run(samples, seed, [&](Pcg32& random, Flight& flight)
-    { return 4.0 * Pi * this->Collect({ draw(random), Vec3(0.0), false }, random, flight); });
+  return this->Run(samples, seed,
+    [&](Pcg32& random, Flight& flight) {
+      return 4.0 * Pi * this->Collect({draw(random), Vec3(0.0), false}, random, flight);
+    });
 }
 
 //--------------------------------------------------------------------------------------------------
 Estimate ReferenceIntegrator::Illuminance(
   const Vec3& point, const Vec3& normal, std::uint64_t samples, std::uint64_t seed) const
 {
-  const Vertex vertex{ point, normal, true };
-  return this->Run(samples, seed, [&](Pcg32& random, Flight& flight)
-    { return Pi * this->Collect(vertex, random, flight); });
+  const Vertex vertex{point, normal, true};
+  return this->Run(samples, seed,
+    [&](Pcg32& random, Flight& flight) { return Pi * this->Collect(vertex, random, flight); });
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -247,7 +247,8 @@ double ReferenceIntegrator::Emitted(const Ray& ray, const Hit& hit) const
   const EmitterCell& cell = this->Scene_->Lights().Cells()[index];
   const double cosine =
     std::max(0.0, -glm::dot(ray.Direction, this->Scene_->Lights().CellNormal(index)));
-  return cell.Luminance[this->Band_] * (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
+  return cell.Luminance[this->Band_] *
+         (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -263,7 +264,7 @@ ReferenceIntegrator::Vertex ReferenceIntegrator::SurfaceVertex(const Ray& ray, c
 {
   const Vec3 front = this->Scene_->Shapes().Normal(hit);
   const Vec3 normal = glm::dot(front, ray.Direction) < 0.0 ? front : -front;
-  return { ray.Origin + ray.Direction * hit.Distance, normal, true };
+  return {ray.Origin + ray.Direction * hit.Distance, normal, true};
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -294,8 +295,8 @@ double ReferenceIntegrator::RadianceSample(
     const double span = flight.Pieces.back().End - first;
     const double collision = -std::expm1(-flight.OpticalDepth);
     const double distance = random.Uniform() < 0.5
-      ? this->DistanceAt(flight, -std::log1p(-random.Uniform() * collision))
-      : first + span * random.Uniform();
+                              ? this->DistanceAt(flight, -std::log1p(-random.Uniform() * collision))
+                              : first + span * random.Uniform();
     double depth = 0.0;
     double extinction = 0.0;
     for (const Segment& piece : flight.Pieces)
@@ -316,7 +317,7 @@ double ReferenceIntegrator::RadianceSample(
     if (rate > 0.0)
     {
       const double density = 0.5 * rate / collision + 0.5 / span;
-      const Vertex vertex{ ray.Origin + ray.Direction * distance, Vec3(0.0), false };
+      const Vertex vertex{ray.Origin + ray.Direction * distance, Vec3(0.0), false};
       value += albedo * rate / density * this->Collect(vertex, random, flight);
     }
   }
@@ -345,9 +346,8 @@ double ReferenceIntegrator::Collect(Vertex vertex, Pcg32& random, Flight& flight
     // Directions follow the integrand's own kernel, which leaves the weight as it is.
     const Vec3 direction =
       vertex.OnSurface ? CosineDirection(vertex.Normal, random) : SphereDirection(random);
-    const double density =
-      vertex.OnSurface ? glm::dot(vertex.Normal, direction) / Pi : 0.25 / Pi;
-    const Ray ray{ vertex.Point, direction };
+    const double density = vertex.OnSurface ? glm::dot(vertex.Normal, direction) / Pi : 0.25 / Pi;
+    const Ray ray{vertex.Point, direction};
     const Vec3 shift = this->Shift(vertex);
     this->Fly(ray, shift, flight);
     const double emitted = this->Emitted(ray, flight.End);
@@ -363,12 +363,12 @@ double ReferenceIntegrator::Collect(Vertex vertex, Pcg32& random, Flight& flight
     {
       weight *= this->Scene_->Albedo();
       const double distance = this->DistanceAt(flight, depth);
-      vertex = { ray.Origin + direction * distance, Vec3(0.0), false };
+      vertex = {ray.Origin + direction * distance, Vec3(0.0), false};
     }
     else if (flight.End.Found())
     {
       weight *= this->ReflectanceAt(flight.End);
-      vertex = this->SurfaceVertex({ ray.Origin + shift, direction }, flight.End);
+      vertex = this->SurfaceVertex({ray.Origin + shift, direction}, flight.End);
     }
     else
     {
@@ -399,7 +399,7 @@ double ReferenceIntegrator::NextEvent(const Vertex& vertex, Pcg32& random) const
   const double root = std::sqrt(random.Uniform());
   const double along = random.Uniform();
   const Vec3 point = found->Corners[0] * (1.0 - root) + found->Corners[1] * (root * (1.0 - along)) +
-    found->Corners[2] * (root * along);
+                     found->Corners[2] * (root * along);
 
   const Vec3 offset = point - vertex.Point;
   const double distance = glm::length(offset);
@@ -413,14 +413,14 @@ double ReferenceIntegrator::NextEvent(const Vertex& vertex, Pcg32& random) const
   const double lightCosine = -glm::dot(direction, lights.CellNormal(found->Cell));
   const double cosine = vertex.OnSurface ? glm::dot(direction, vertex.Normal) : 1.0;
   if (lightCosine <= 0.0 || cosine <= 0.0 ||
-    !this->Scene_->Shapes().Visible(vertex.Point + this->Shift(vertex), point))
+      !this->Scene_->Shapes().Visible(vertex.Point + this->Shift(vertex), point))
   {
     return 0.0;
   }
   const double transmittance = std::exp(
     -this->Scale_ * this->Scene_->Smoke().OpticalDepth(vertex.Point, direction, 0.0, distance));
   const double emitted = cell.Luminance[this->Band_] *
-    (cell.Exponent > 0.0 ? std::pow(lightCosine, cell.Exponent) : 1.0);
+                         (cell.Exponent > 0.0 ? std::pow(lightCosine, cell.Exponent) : 1.0);
   const double kernel = vertex.OnSurface ? cosine / Pi : 0.25 / Pi;
   const double lightDensity =
     this->Exitance_[found->Cell] / this->TotalFlux_ * distance * distance / lightCosine;

@@ -1,4 +1,5 @@
-// A plain, unbiased path tracer that shares nothing with the solver but the scene: the judge in tests.
+// A plain, unbiased path tracer that shares nothing with the solver but the scene: the judge in
+// tests.
 #pragma once
 
 #include "Scene.h"
@@ -10,8 +11,8 @@
 namespace smokevis
 {
 
-/// Permuted congruential generator (O'Neill 2014, XSH-RR 64/32): small, and with streams that do not
-/// overlap, so that each chunk of samples has its own.
+/// Permuted congruential generator (O'Neill 2014, XSH-RR 64/32): small, and with streams that do
+/// not overlap, so that each chunk of samples has its own.
 class Pcg32
 {
 public:
@@ -35,8 +36,8 @@ struct Estimate
 
 struct Ray
 {
-  Vec3 Origin{ 0.0 };
-  Vec3 Direction{ 1.0, 0.0, 0.0 };
+  Vec3 Origin{0.0};
+  Vec3 Direction{1.0, 0.0, 0.0};
 };
 
 /// Path tracer in one band. Emission that a ray meets directly and emission of the smoke are
@@ -53,13 +54,13 @@ public:
   /// Only what smoke scatters or emits on the way to the first surface [cd/m2].
   Estimate Veil(const Ray& ray, std::uint64_t samples, std::uint64_t seed) const;
   /// Mean of the radiance over rays drawn by the caller, one a sample.
-  Estimate MeanRadiance(const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples,
-    std::uint64_t seed) const;
+  Estimate MeanRadiance(
+    const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const;
   /// Fluence at a point [lx].
   Estimate Fluence(const Vec3& point, std::uint64_t samples, std::uint64_t seed) const;
   /// Mean of the fluence over points drawn by the caller, one a sample.
-  Estimate MeanFluence(const std::function<Vec3(Pcg32&)>& draw, std::uint64_t samples,
-    std::uint64_t seed) const;
+  Estimate MeanFluence(
+    const std::function<Vec3(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const;
   /// Illuminance at a point of a plane with a unit normal [lx].
   Estimate Illuminance(
     const Vec3& point, const Vec3& normal, std::uint64_t samples, std::uint64_t seed) const;
@@ -71,8 +72,8 @@ private:
   /// Where a path changes direction: in smoke (Normal is zero) or on a surface.
   struct Vertex
   {
-    Vec3 Point{ 0.0 };
-    Vec3 Normal{ 0.0 };
+    Vec3 Point{0.0};
+    Vec3 Normal{0.0};
     bool OnSurface = false;
   };
 
@@ -96,8 +97,8 @@ private:
   template <class Sample>
   Estimate Run(std::uint64_t samples, std::uint64_t seed, const Sample& sample) const;
 
-  /// Follows a ray to the next surface, which is sought from a point shifted off the surface that the
-  /// ray leaves.
+  /// Follows a ray to the next surface, which is sought from a point shifted off the surface that
+  /// the ray leaves.
   void Fly(const Ray& ray, const Vec3& shift, Flight& flight) const;
   Vec3 Shift(const Vertex& vertex) const;
   double Depth(const Segment& piece) const;

@@ -47,99 +47,102 @@ TEST(BadInput, Smoke)
 {
   ExpectRefused("extinction is not a number",
     [](SceneDescription& scene) { scene.Grids[0].Extinction[17] = static_cast<float>(NaN); },
-    { "17", "extinction", "uniform smoke" });
+    {"17", "extinction", "uniform smoke"});
   ExpectRefused("extinction is negative",
     [](SceneDescription& scene) { scene.Grids[0].Extinction[5] = -1.0F; },
-    { "cell 5", "extinction", "-1" });
+    {"cell 5", "extinction", "-1"});
   ExpectRefused("extinction is infinite",
     [](SceneDescription& scene) { scene.Grids[0].Extinction[5] = static_cast<float>(Infinity); },
-    { "cell 5", "extinction" });
+    {"cell 5", "extinction"});
   ExpectRefused("nodes fall",
-    [](SceneDescription& scene) { std::swap(scene.Grids[0].Nodes[1][3], scene.Grids[0].Nodes[1][4]); },
-    { "axis y", "increasing" });
+    [](SceneDescription& scene)
+    { std::swap(scene.Grids[0].Nodes[1][3], scene.Grids[0].Nodes[1][4]); },
+    {"axis y", "increasing"});
   ExpectRefused("nodes repeat",
     [](SceneDescription& scene) { scene.Grids[0].Nodes[2][4] = scene.Grids[0].Nodes[2][3]; },
-    { "axis z", "node 4" });
+    {"axis z", "node 4"});
   ExpectRefused("a node is not a number",
-    [](SceneDescription& scene) { scene.Grids[0].Nodes[0][0] = NaN; }, { "axis x" });
-  ExpectRefused("one node only",
-    [](SceneDescription& scene) { scene.Grids[0].Nodes[0].resize(1); }, { "axis x" });
+    [](SceneDescription& scene) { scene.Grids[0].Nodes[0][0] = NaN; }, {"axis x"});
+  ExpectRefused("one node only", [](SceneDescription& scene) { scene.Grids[0].Nodes[0].resize(1); },
+    {"axis x"});
   ExpectRefused("too few values",
-    [](SceneDescription& scene) { scene.Grids[0].Extinction.pop_back(); }, { "3999", "4000" });
+    [](SceneDescription& scene) { scene.Grids[0].Extinction.pop_back(); }, {"3999", "4000"});
   ExpectRefused("too few emitted luminances",
     [](SceneDescription& scene) { scene.Grids[0].EmittedLuminance.assign(7, 1.0F); },
-    { "emitted luminance" });
+    {"emitted luminance"});
   ExpectRefused("emitted luminance is negative",
     [](SceneDescription& scene) { scene.Grids[0].EmittedLuminance.assign(4000, -1.0F); },
-    { "emitted luminance", "cell 0" });
+    {"emitted luminance", "cell 0"});
 }
 
 TEST(BadInput, Scene)
 {
-  for (const double albedo : { -0.1, 1.1, NaN })
+  for (const double albedo : {-0.1, 1.1, NaN})
   {
     ExpectRefused("albedo " + std::to_string(albedo),
-      [&](SceneDescription& scene) { scene.Albedo = albedo; }, { "albedo", "0 and 1" });
+      [&](SceneDescription& scene) { scene.Albedo = albedo; }, {"albedo", "0 and 1"});
   }
-  ExpectRefused("two bands", [](SceneDescription& scene) { scene.Bands = 2; }, { "2 bands" });
+  ExpectRefused("two bands", [](SceneDescription& scene) { scene.Bands = 2; }, {"2 bands"});
   ExpectRefused("negative scale of extinction",
-    [](SceneDescription& scene) { scene.ExtinctionScale[0] = -1.0; }, { "extinction", "band 0" });
-  ExpectRefused("no emitters", [](SceneDescription& scene) { scene.Emitters.clear(); }, { "emit" });
-  ExpectRefused("nothing at all", [](SceneDescription& scene) { scene = {}; }, { "empty" });
+    [](SceneDescription& scene) { scene.ExtinctionScale[0] = -1.0; }, {"extinction", "band 0"});
+  ExpectRefused("no emitters", [](SceneDescription& scene) { scene.Emitters.clear(); }, {"emit"});
+  ExpectRefused("nothing at all", [](SceneDescription& scene) { scene = {}; }, {"empty"});
 }
 
 TEST(BadInput, Surfaces)
 {
-  for (const double reflectance : { -0.1, 1.5, NaN })
+  for (const double reflectance : {-0.1, 1.5, NaN})
   {
-    ExpectRefused("reflectance " + std::to_string(reflectance), [&](SceneDescription& scene)
-      { scene.Surfaces.CellReflectance[3][0] = reflectance; }, { "cell 3", "reflectance" });
+    ExpectRefused("reflectance " + std::to_string(reflectance),
+      [&](SceneDescription& scene) { scene.Surfaces.CellReflectance[3][0] = reflectance; },
+      {"cell 3", "reflectance"});
   }
   ExpectRefused("a corner without a point",
-    [](SceneDescription& scene) { scene.Surfaces.Triangles[2][1] = 1000000; }, { "triangle 2" });
+    [](SceneDescription& scene) { scene.Surfaces.Triangles[2][1] = 1000000; }, {"triangle 2"});
   ExpectRefused("a triangle without a cell",
-    [](SceneDescription& scene) { scene.Surfaces.TriangleCell.pop_back(); }, { "cell" });
+    [](SceneDescription& scene) { scene.Surfaces.TriangleCell.pop_back(); }, {"cell"});
   ExpectRefused("a cell without a reflectance",
-    [](SceneDescription& scene) { scene.Surfaces.CellReflectance.pop_back(); }, { "reflectance" });
+    [](SceneDescription& scene) { scene.Surfaces.CellReflectance.pop_back(); }, {"reflectance"});
   ExpectRefused("a point that is not a number",
-    [](SceneDescription& scene) { scene.Surfaces.Points[0].x = NaN; }, { "finite" });
+    [](SceneDescription& scene) { scene.Surfaces.Points[0].x = NaN; }, {"finite"});
 }
 
 TEST(BadInput, Emitters)
 {
   ExpectRefused("luminance is negative",
     [](SceneDescription& scene) { scene.Emitters[2].Luminance[0] = -1.0; },
-    { "emitter cell 2", "luminance" });
+    {"emitter cell 2", "luminance"});
   ExpectRefused("luminance is not a number",
     [](SceneDescription& scene) { scene.Emitters[2].Luminance[0] = NaN; },
-    { "emitter cell 2", "luminance" });
+    {"emitter cell 2", "luminance"});
   ExpectRefused("reflectance above 1",
     [](SceneDescription& scene) { scene.Emitters[2].Reflectance[0] = 1.5; },
-    { "emitter cell 2", "reflectance" });
+    {"emitter cell 2", "reflectance"});
   ExpectRefused("exponent is negative",
     [](SceneDescription& scene) { scene.Emitters[2].Exponent = -1.0; },
-    { "emitter cell 2", "exponent" });
+    {"emitter cell 2", "exponent"});
   ExpectRefused("polygon of two corners",
     [](SceneDescription& scene) { scene.Emitters[2].Vertices.resize(2); },
-    { "emitter cell 2", "area" });
+    {"emitter cell 2", "area"});
   ExpectRefused("polygon without corners",
-    [](SceneDescription& scene) { scene.Emitters[2].Vertices.clear(); }, { "emitter cell 2" });
+    [](SceneDescription& scene) { scene.Emitters[2].Vertices.clear(); }, {"emitter cell 2"});
   ExpectRefused("polygon in one line",
-    [](SceneDescription& scene)
-    { scene.Emitters[2].Vertices = { Vec3(0.0), Vec3(1.0), Vec3(2.0) }; },
-    { "emitter cell 2", "area" });
+    [](SceneDescription& scene) {
+      scene.Emitters[2].Vertices = {Vec3(0.0), Vec3(1.0), Vec3(2.0)};
+    },
+    {"emitter cell 2", "area"});
   ExpectRefused("a corner that is not a number",
-    [](SceneDescription& scene) { scene.Emitters[2].Vertices[0].y = NaN; }, { "emitter cell 2" });
+    [](SceneDescription& scene) { scene.Emitters[2].Vertices[0].y = NaN; }, {"emitter cell 2"});
   ExpectRefused("bent polygon",
     [](SceneDescription& scene) { scene.Emitters[2].Vertices[0].x += 0.05; },
-    { "emitter cell 2", "plane" });
+    {"emitter cell 2", "plane"});
 }
 
 /// The tunnel in the dark, as it comes.
 const SignMeasurement& PlainTunnel()
 {
   static const SignMeasurement sign =
-    MeasureSign(*Solved(scenes::Tunnel(1.0, 0.9)).TheView, 0, scenes::TunnelEye, Observer{ 0.0 });
+    MeasureSign(*Solved(scenes::Tunnel(1.0, 0.9)).TheView, 0, scenes::TunnelEye, Observer{0.0});
   return sign;
 }
 
@@ -167,24 +170,24 @@ TEST(OddInput, DuplicateAndSliverTriangles)
   for (std::uint32_t i = 0; i + 2 < 60; i += 3)
   {
     // Three corners on one line, and one corner three times.
-    mesh.Triangles.push_back({ i, i + 1, i });
-    mesh.Triangles.push_back({ i, i, i });
+    mesh.Triangles.push_back({i, i + 1, i});
+    mesh.Triangles.push_back({i, i, i});
     mesh.TriangleCell.insert(mesh.TriangleCell.end(), 2, 0);
   }
   // A sliver 1e-9 m wide along the floor.
   const auto first = static_cast<std::uint32_t>(mesh.Points.size());
-  mesh.Points.insert(mesh.Points.end(), { { 0, 0.5, 0 }, { 4, 0.5, 0 }, { 4, 0.5 + 1e-9, 0 } });
-  mesh.Triangles.push_back({ first, first + 1, first + 2 });
+  mesh.Points.insert(mesh.Points.end(), {{0, 0.5, 0}, {4, 0.5, 0}, {4, 0.5 + 1e-9, 0}});
+  mesh.Triangles.push_back({first, first + 1, first + 2});
   mesh.TriangleCell.push_back(0);
   const Solved solved(scene);
   ExpectSameSign("Duplicates and slivers",
-    MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{ 0.0 }), 0.01);
+    MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0}), 0.01);
 }
 
 // The sign may lie in the wall, a hair in front of it or a hair behind it.
 TEST(OddInput, SignFlushWithTheWall)
 {
-  for (const double offset : { -2e-6, -1e-9, 1e-9, 2e-6, 1e-3 })
+  for (const double offset : {-2e-6, -1e-9, 1e-9, 2e-6, 1e-3})
   {
     SceneDescription scene = scenes::Tunnel(1.0, 0.9);
     for (EmitterCell& cell : scene.Emitters)
@@ -195,7 +198,7 @@ TEST(OddInput, SignFlushWithTheWall)
       }
     }
     const SignMeasurement sign =
-      MeasureSign(*Solved(scene).TheView, 0, scenes::TunnelEye, Observer{ 0.0 });
+      MeasureSign(*Solved(scene).TheView, 0, scenes::TunnelEye, Observer{0.0});
     EXPECT_TRUE(sign.InView);
     EXPECT_NEAR(sign.VisibleFraction, 1.0, 1e-3) << offset;
     ExpectSameSign("Sign " + std::to_string(1e6 * offset) + " um before the wall", sign, 0.01);
@@ -206,8 +209,8 @@ TEST(OddInput, SignFlushWithTheWall)
 TEST(OddInput, EyesInOddPlaces)
 {
   const Solved solved(scenes::Tunnel(1.0, 0.9));
-  for (const Vec3& eye : { Vec3(0, 0.5, 0.5), Vec3(0.0), Vec3(4, 1, 1), Vec3(4, 0.5, 0.5),
-         Vec3(4.0 - 1e-9, 0.5, 0.5), Vec3(-10, 0.5, 0.5), Vec3(1e6, 1e6, 1e6), Vec3(2, 0, 0.5) })
+  for (const Vec3& eye : {Vec3(0, 0.5, 0.5), Vec3(0.0), Vec3(4, 1, 1), Vec3(4, 0.5, 0.5),
+         Vec3(4.0 - 1e-9, 0.5, 0.5), Vec3(-10, 0.5, 0.5), Vec3(1e6, 1e6, 1e6), Vec3(2, 0, 0.5)})
   {
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, {});
     EXPECT_TRUE(std::isfinite(sign.Contrast) && sign.Contrast >= 0.0);
@@ -218,13 +221,13 @@ TEST(OddInput, EyesInOddPlaces)
   }
 }
 
-// Any depth with all light lost or none. White walls and lossless smoke leave the black plate of the
-// sign alone to absorb: no NaN, no hang.
+// Any depth with all light lost or none. White walls and lossless smoke leave the black plate of
+// the sign alone to absorb: no NaN, no hang.
 TEST(OddInput, Extremes)
 {
-  for (const double extinction : { 0.0, 1e-20, 2.5e5 })
+  for (const double extinction : {0.0, 1e-20, 2.5e5})
   {
-    for (const double loss : { 0.0, 1.0 })
+    for (const double loss : {0.0, 1.0})
     {
       SceneDescription scene = scenes::Tunnel(extinction, 1.0 - loss);
       for (Spectrum& reflectance : scene.Surfaces.CellReflectance)
@@ -232,16 +235,9 @@ TEST(OddInput, Extremes)
         // White walls and nothing between them that absorbs would reflect without end.
         reflectance.fill(extinction < 1.0 ? 0.5 : 1.0);
       }
-      if (loss == 0.0 && extinction > 1.0)
-      {
-        // Nothing but the plate of the sign takes light away: reflections and scatterings take too many
-        // sweeps to settle, and the solver says so.
-        EXPECT_THROW(Solved{ scene }, Error);
-        continue;
-      }
       const Solved solved(scene);
       const SignMeasurement sign =
-        MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{ 0.0 });
+        MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
       EXPECT_TRUE(std::isfinite(sign.Contrast));
       EXPECT_TRUE(std::isfinite(sign.MeanLuminance));
       for (const float value : solved.Field->DirectFluence)
@@ -272,8 +268,7 @@ void CompareDirect(
     const double a = plain.Field->DirectIlluminance[i];
     if (a > 0.0)
     {
-      illuminance =
-        std::max(illuminance, std::abs(other.Field->DirectIlluminance[i] - a) / a);
+      illuminance = std::max(illuminance, std::abs(other.Field->DirectIlluminance[i] - a) / a);
     }
   }
   report::Head(name);
@@ -285,12 +280,12 @@ void CompareDirect(
 TEST(OddInput, ScaleOfLengths)
 {
   const Solved plain(scenes::Tunnel(1.0, 0.9));
-  for (const double factor : { 1e-3, 1e3 })
+  for (const double factor : {1e-3, 1e3})
   {
     const Solved scaled(scenes::Scaled(scenes::Tunnel(1.0, 0.9), factor));
     CompareDirect("Tunnel times " + std::to_string(factor), plain, scaled, 1e-5);
-    ExpectSameSign("Its sign",
-      MeasureSign(*scaled.TheView, 0, factor * scenes::TunnelEye, Observer{ 0.0 }), 0.01);
+    ExpectSameSign(
+      "Its sign", MeasureSign(*scaled.TheView, 0, factor * scenes::TunnelEye, Observer{0.0}), 0.01);
   }
 }
 
@@ -301,8 +296,8 @@ TEST(OddInput, FarFromTheOrigin)
   const Solved plain(scenes::Tunnel(1.0, 0.9));
   const Solved moved(scenes::Moved(scenes::Tunnel(1.0, 0.9), offset));
   CompareDirect("Tunnel a million metres away", plain, moved, 1e-5);
-  ExpectSameSign("Its sign",
-    MeasureSign(*moved.TheView, 0, scenes::TunnelEye + offset, Observer{ 0.0 }), 0.01);
+  ExpectSameSign(
+    "Its sign", MeasureSign(*moved.TheView, 0, scenes::TunnelEye + offset, Observer{0.0}), 0.01);
 }
 
 } // namespace

@@ -24,8 +24,8 @@ std::array<Face, 6> InwardFaces(const Vec3& lower, const Vec3& upper)
   const Vec3 x(size.x, 0.0, 0.0);
   const Vec3 y(0.0, size.y, 0.0);
   const Vec3 z(0.0, 0.0, size.z);
-  return { Face{ lower, y, z }, Face{ lower + x, z, y }, Face{ lower, z, x },
-    Face{ lower + y, x, z }, Face{ lower, x, y }, Face{ lower + z, y, x } };
+  return {Face{lower, y, z}, Face{lower + x, z, y}, Face{lower, z, x}, Face{lower + y, x, z},
+    Face{lower, x, y}, Face{lower + z, y, x}};
 }
 
 int Pieces(const Vec3& edge, double patchSize)
@@ -45,8 +45,8 @@ std::size_t AddRectangle(SurfaceMesh& mesh, const Vec3& corner, const Vec3& edge
   {
     for (int i = 0; i <= nu; ++i)
     {
-      mesh.Points.push_back(corner + edgeU * (static_cast<double>(i) / nu) +
-        edgeV * (static_cast<double>(j) / nv));
+      mesh.Points.push_back(
+        corner + edgeU * (static_cast<double>(i) / nu) + edgeV * (static_cast<double>(j) / nv));
     }
   }
   const auto row = static_cast<std::uint32_t>(nu + 1);
@@ -54,21 +54,21 @@ std::size_t AddRectangle(SurfaceMesh& mesh, const Vec3& corner, const Vec3& edge
   {
     for (int i = 0; i < nu; ++i)
     {
-      const std::uint32_t a = firstPoint + static_cast<std::uint32_t>(j) * row +
-        static_cast<std::uint32_t>(i);
+      const std::uint32_t a =
+        firstPoint + static_cast<std::uint32_t>(j) * row + static_cast<std::uint32_t>(i);
       const auto cell = static_cast<std::uint32_t>(mesh.CellReflectance.size());
-      mesh.Triangles.push_back({ a, a + 1, a + 1 + row });
-      mesh.Triangles.push_back({ a, a + 1 + row, a + row });
+      mesh.Triangles.push_back({a, a + 1, a + 1 + row});
+      mesh.Triangles.push_back({a, a + 1 + row, a + row});
       mesh.TriangleCell.insert(mesh.TriangleCell.end(), 2, cell);
-      mesh.CellReflectance.push_back({ reflectance, reflectance, reflectance });
+      mesh.CellReflectance.push_back({reflectance, reflectance, reflectance});
     }
   }
   return firstCell;
 }
 
 //--------------------------------------------------------------------------------------------------
-void AddRoom(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
-  double reflectance)
+void AddRoom(
+  SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize, double reflectance)
 {
   for (const Face& face : InwardFaces(lower, upper))
   {
@@ -78,8 +78,8 @@ void AddRoom(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double pat
 }
 
 //--------------------------------------------------------------------------------------------------
-void AddBlock(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
-  double reflectance)
+void AddBlock(
+  SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize, double reflectance)
 {
   for (const Face& face : InwardFaces(lower, upper))
   {
@@ -100,8 +100,8 @@ std::vector<double> Linear(double first, double last, int intervals)
 }
 
 //--------------------------------------------------------------------------------------------------
-SmokeGrid UniformSmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
-  double extinction)
+SmokeGrid UniformSmoke(
+  const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells, double extinction)
 {
   SmokeGrid grid;
   grid.Name = "uniform smoke";
@@ -171,10 +171,10 @@ EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double
   const Vec3 right = glm::normalize(glm::cross(up, normal)) * (0.5 * width);
   const Vec3 top = glm::normalize(glm::cross(normal, right)) * (0.5 * height);
   EmitterCell cell;
-  cell.Vertices = { centre - right - top, centre + right - top, centre + right + top,
-    centre - right + top };
-  cell.Luminance = { luminance, luminance, luminance };
-  cell.Reflectance = { reflectance, reflectance, reflectance };
+  cell.Vertices = {
+    centre - right - top, centre + right - top, centre + right + top, centre - right + top};
+  cell.Luminance = {luminance, luminance, luminance};
+  cell.Reflectance = {reflectance, reflectance, reflectance};
   cell.SignId = signId;
   return cell;
 }
@@ -195,20 +195,21 @@ std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const V
 }
 
 //--------------------------------------------------------------------------------------------------
-std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
-  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance, int signId)
+std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV,
+  int nu, int nv, double luminance, double reflectance, int signId)
 {
   std::vector<EmitterCell> cells;
-  const auto at = [&](int i, int j)
-  { return corner + edgeU * (static_cast<double>(i) / nu) + edgeV * (static_cast<double>(j) / nv); };
+  const auto at = [&](int i, int j) {
+    return corner + edgeU * (static_cast<double>(i) / nu) + edgeV * (static_cast<double>(j) / nv);
+  };
   for (int j = 0; j < nv; ++j)
   {
     for (int i = 0; i < nu; ++i)
     {
       EmitterCell cell;
-      cell.Vertices = { at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) };
-      cell.Luminance = { luminance, luminance, luminance };
-      cell.Reflectance = { reflectance, reflectance, reflectance };
+      cell.Vertices = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      cell.Luminance = {luminance, luminance, luminance};
+      cell.Reflectance = {reflectance, reflectance, reflectance};
       cell.SignId = signId;
       cells.push_back(cell);
     }
@@ -224,22 +225,22 @@ std::vector<EmitterCell> EmittingRoom(
   int sign = 0;
   for (const Face& face : InwardFaces(lower, upper))
   {
-    const auto wall = EmittingRectangle(
-      face.Corner, face.EdgeU, face.EdgeV, n, n, luminance, reflectance, sign++);
+    const auto wall =
+      EmittingRectangle(face.Corner, face.EdgeU, face.EdgeV, n, n, luminance, reflectance, sign++);
     cells.insert(cells.end(), wall.begin(), wall.end());
   }
   return cells;
 }
 
 //--------------------------------------------------------------------------------------------------
-std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int cuts, bool inwards,
-  double luminance, double reflectance)
+std::vector<EmitterCell> EmittingSphere(
+  const Vec3& centre, double radius, int cuts, bool inwards, double luminance, double reflectance)
 {
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));
   std::vector<Vec3> points;
-  for (const double s : { -1.0, 1.0 })
+  for (const double s : {-1.0, 1.0})
   {
-    for (const double t : { -golden, golden })
+    for (const double t : {-golden, golden})
     {
       points.emplace_back(0.0, s, t);
       points.emplace_back(s, t, 0.0);
@@ -259,8 +260,8 @@ std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int c
       {
         if (joined(a, b) && joined(b, c) && joined(a, c))
         {
-          triangles.push_back({ glm::normalize(points[a]), glm::normalize(points[b]),
-            glm::normalize(points[c]) });
+          triangles.push_back(
+            {glm::normalize(points[a]), glm::normalize(points[b]), glm::normalize(points[c])});
         }
       }
     }
@@ -273,8 +274,7 @@ std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int c
       const Vec3 ab = glm::normalize(t[0] + t[1]);
       const Vec3 bc = glm::normalize(t[1] + t[2]);
       const Vec3 ca = glm::normalize(t[2] + t[0]);
-      finer.insert(finer.end(),
-        { { t[0], ab, ca }, { ab, t[1], bc }, { ca, bc, t[2] }, { ab, bc, ca } });
+      finer.insert(finer.end(), {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
     }
     triangles = std::move(finer);
   }
@@ -295,9 +295,9 @@ std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int c
       std::swap(t[1], t[2]);
     }
     EmitterCell cell;
-    cell.Vertices = { centre + t[0] * scale, centre + t[1] * scale, centre + t[2] * scale };
-    cell.Luminance = { luminance, luminance, luminance };
-    cell.Reflectance = { reflectance, reflectance, reflectance };
+    cell.Vertices = {centre + t[0] * scale, centre + t[1] * scale, centre + t[2] * scale};
+    cell.Luminance = {luminance, luminance, luminance};
+    cell.Reflectance = {reflectance, reflectance, reflectance};
     cells.push_back(cell);
   }
   return cells;
@@ -310,23 +310,23 @@ SceneDescription Tunnel(double extinction, double albedo)
   scene.Albedo = albedo;
   const Vec3 lower(0.0);
   const Vec3 upper(4.0, 1.0, 1.0);
-  scene.Grids.push_back(UniformSmoke(lower, upper, { 40, 10, 10 }, extinction));
+  scene.Grids.push_back(UniformSmoke(lower, upper, {40, 10, 10}, extinction));
   AddRoom(scene.Surfaces, lower, upper, 0.1, 0.2);
-  scene.Emitters = Barcode({ 4.0, 0.5, 0.5 }, { -1, 0, 0 }, { 0, 0, 1 }, 0.3, 0.3, 9, 1.0, 0);
+  scene.Emitters = Barcode({4.0, 0.5, 0.5}, {-1, 0, 0}, {0, 0, 1}, 0.3, 0.3, 9, 1.0, 0);
   return scene;
 }
 
 //--------------------------------------------------------------------------------------------------
 EmitterCell TunnelLamp(double x)
 {
-  return Plate({ x, 0.5, 1.0 }, { 0, 0, -1 }, { 1, 0, 0 }, 0.2, 0.2, 1.0);
+  return Plate({x, 0.5, 1.0}, {0, 0, -1}, {1, 0, 0}, 0.2, 0.2, 1.0);
 }
 
 //--------------------------------------------------------------------------------------------------
 Slab MakeSlab(double opticalDepth, double albedo, int layers)
 {
-  // Light that reaches the middle from beyond the margin has crossed eight mean free paths of smoke,
-  // or leaked through the faces for twice the thickness: less than 1e-3 of the fluence.
+  // Light that reaches the middle from beyond the margin has crossed eight mean free paths of
+  // smoke, or leaked through the faces for twice the thickness: less than 1e-3 of the fluence.
   const double margin = 8.0 / opticalDepth + 2.0;
   const double half = 2.5 * margin;
   constexpr int Across = 20;
@@ -335,11 +335,12 @@ Slab MakeSlab(double opticalDepth, double albedo, int layers)
   SceneDescription& scene = slab.Description;
   scene.Albedo = albedo;
   scene.Grids.push_back(
-    UniformSmoke({ -half, -half, 0 }, { half, half, 1 }, { Across, Across, layers }, opticalDepth));
+    UniformSmoke({-half, -half, 0}, {half, half, 1}, {Across, Across, layers}, opticalDepth));
   const Vec3 u(2.0 * half, 0, 0);
   const Vec3 v(0, 2.0 * half, 0);
-  AddRectangle(scene.Surfaces, { -half, -half, 1 }, v, u, Across, Across, 0.0);
-  scene.Emitters = EmittingRectangle({ -half, -half, 0 }, u, v, Across, Across, std::numbers::inv_pi, 0.0);
+  AddRectangle(scene.Surfaces, {-half, -half, 1}, v, u, Across, Across, 0.0);
+  scene.Emitters =
+    EmittingRectangle({-half, -half, 0}, u, v, Across, Across, std::numbers::inv_pi, 0.0);
 
   // 12 of 20 cells are nearer to the middle than 0.6 of the half width.
   slab.MiddleCells.resize(static_cast<std::size_t>(layers));
@@ -371,23 +372,23 @@ RandomRoom MakeRandomRoom(std::uint64_t seed)
   const Vec3 upper(between(3.0, 5.0), between(2.0, 3.0), between(2.2, 2.8));
   scene.Albedo = between(0.2, 0.95);
   const double extinction = between(0.2, 1.2);
-  scene.Grids.push_back(NoisySmoke(Vec3(0.0), upper, { 20, 12, 12 }, 0.2 * extinction,
-    1.8 * extinction, seed));
+  scene.Grids.push_back(
+    NoisySmoke(Vec3(0.0), upper, {20, 12, 12}, 0.2 * extinction, 1.8 * extinction, seed));
   AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, between(0.05, 0.7));
   const Vec3 block(between(1.0, 2.0), between(0.2, 1.0), 0.0);
-  AddBlock(scene.Surfaces, block, block + Vec3(0.6, 0.5, between(0.5, 1.2)), 0.25,
-    between(0.05, 0.7));
+  AddBlock(
+    scene.Surfaces, block, block + Vec3(0.6, 0.5, between(0.5, 1.2)), 0.25, between(0.05, 0.7));
   const Vec3 sign(upper.x, between(0.6, upper.y - 0.6), between(1.5, 2.0));
-  scene.Emitters = Barcode(sign, { -1, 0, 0 }, { 0, 0, 1 }, between(0.2, 0.5), between(0.15, 0.3),
+  scene.Emitters = Barcode(sign, {-1, 0, 0}, {0, 0, 1}, between(0.2, 0.5), between(0.15, 0.3),
     2 * static_cast<int>(between(1.0, 4.0)) + 1, 100.0, 0, between(0.0, 0.3));
   const int lamps = static_cast<int>(between(0.0, 2.999));
   for (int lamp = 0; lamp < lamps; ++lamp)
   {
     scene.Emitters.push_back(
-      Plate({ between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1 },
-        { 0, 0, -1 }, { 1, 0, 0 }, 0.3, 0.3, between(2.0, 20.0), 0.5));
+      Plate({between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1}, {0, 0, -1},
+        {1, 0, 0}, 0.3, 0.3, between(2.0, 20.0), 0.5));
   }
-  room.Eye = { between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8) };
+  room.Eye = {between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8)};
   return room;
 }
 

@@ -18,18 +18,18 @@ std::size_t AddRectangle(SurfaceMesh& mesh, const Vec3& corner, const Vec3& edge
 
 /// Adds the six walls of a box, fronts inwards, in cells no larger than a patch size. The walls
 /// follow each other as low x, high x, low y, high y, low z, high z.
-void AddRoom(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
-  double reflectance);
+void AddRoom(
+  SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize, double reflectance);
 
 /// Adds the six faces of a solid box, fronts outwards.
-void AddBlock(SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize,
-  double reflectance);
+void AddBlock(
+  SurfaceMesh& mesh, const Vec3& lower, const Vec3& upper, double patchSize, double reflectance);
 
 /// Evenly spaced numbers, both ends included.
 std::vector<double> Linear(double first, double last, int intervals);
 
-SmokeGrid UniformSmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
-  double extinction);
+SmokeGrid UniformSmoke(
+  const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells, double extinction);
 
 /// Extinction uniformly random between two bounds in each cell.
 SmokeGrid NoisySmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
@@ -48,23 +48,25 @@ std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const V
 
 /// A rectangle of nu x nv emitting cells that are one sign; its front is the side of
 /// cross(edgeU, edgeV).
-std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU,
-  const Vec3& edgeV, int nu, int nv, double luminance, double reflectance, int signId = 0);
+std::vector<EmitterCell> EmittingRectangle(const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV,
+  int nu, int nv, double luminance, double reflectance, int signId = 0);
 
 /// The six walls of a box as emitters that face inwards, n x n cells each, a sign a wall.
 std::vector<EmitterCell> EmittingRoom(
   const Vec3& lower, const Vec3& upper, int n, double luminance, double reflectance);
 
 /// Triangles of an icosahedron whose faces were cut in four so many times, around a centre. The
-/// corners lie outside the given radius such that the mean chord, 4 volume / surface, is the sphere's.
-std::vector<EmitterCell> EmittingSphere(const Vec3& centre, double radius, int cuts, bool inwards,
-  double luminance, double reflectance);
+/// corners lie outside the given radius such that the mean chord, 4 volume / surface, is the
+/// sphere's.
+std::vector<EmitterCell> EmittingSphere(
+  const Vec3& centre, double radius, int cuts, bool inwards, double luminance, double reflectance);
 
 /// The tunnel: a closed box of 4 x 1 x 1 m with walls of reflectance 0.2, uniform smoke in
-/// 40 x 10 x 10 cells and a sign of nine stripes (five lit, luminance 1) 0.3 m square on the end wall.
+/// 40 x 10 x 10 cells and a sign of nine stripes (five lit, luminance 1) 0.3 m square on the end
+/// wall.
 SceneDescription Tunnel(double extinction, double albedo);
 /// Where the observer of the tunnel stands.
-inline const Vec3 TunnelEye{ 0.001, 0.5, 0.5 };
+inline const Vec3 TunnelEye{0.001, 0.5, 0.5};
 /// A lamp of 0.2 x 0.2 m and luminance 1 under the tunnel's ceiling.
 EmitterCell TunnelLamp(double x);
 

@@ -11,8 +11,8 @@ namespace
 
 using namespace smokevis;
 
-/// Layers so thin that a flat source inside each errs by less than 1e-3 (its error is second order in
-/// the layer's optical thickness, and next to the walls the fluence falls steeply).
+/// Layers so thin that a flat source inside each errs by less than 1e-3 (its error is second order
+/// in the layer's optical thickness, and next to the walls the fluence falls steeply).
 int LayersFor(double opticalDepth)
 {
   return std::max(15, 2 * static_cast<int>(std::ceil(5.0 * opticalDepth)) + 1);
@@ -57,7 +57,7 @@ void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albe
     const double depth = table.Number(row, "tau0");
     const double albedo = table.Number(row, "omega");
     if (table.Text(row, "incidence") == "diffuse" && depth >= depthFrom && depth <= depthTo &&
-      std::find(albedos.begin(), albedos.end(), albedo) != albedos.end())
+        std::find(albedos.begin(), albedos.end(), albedo) != albedos.end())
     {
       CheckRow(table, row, 0.01);
     }
@@ -66,17 +66,17 @@ void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albe
 
 TEST(Slab, DepthOne)
 {
-  CheckRows(1.0, 1.0, { 0.5, 0.9 });
+  CheckRows(1.0, 1.0, {0.5, 0.9});
 }
 
 TEST(Slab, ThinLong)
 {
-  CheckRows(0.1, 0.5, { 0.2, 0.9, 1.0 });
+  CheckRows(0.1, 0.5, {0.2, 0.9, 1.0});
 }
 
 TEST(Slab, ThickLong)
 {
-  CheckRows(1.0, 10.0, { 0.2, 0.8, 0.99, 1.0 });
+  CheckRows(1.0, 10.0, {0.2, 0.8, 0.99, 1.0});
 }
 
 /// Conservative slab between black plates: flux, and G / 4 at a quarter of the depth.
@@ -105,8 +105,7 @@ void CheckEquilibrium(const std::vector<double>& depths, double tolerance)
     const Estimate atQuarter = solved.Fluence(quarter);
     const Estimate atMiddle = solved.Fluence(middle);
     const std::string name = "depth " + table.Text(row, "tau0");
-    report::Relative(
-      name + " Q", table.Number(row, "Q"), flux.Mean, tolerance, flux.StandardError);
+    report::Relative(name + " Q", table.Number(row, "Q"), flux.Mean, tolerance, flux.StandardError);
     report::Relative(name + " phi quarter", table.Number(row, "phi_quarter"), atQuarter.Mean / 4.0,
       tolerance, atQuarter.StandardError / 4.0);
     report::Relative(
@@ -116,7 +115,7 @@ void CheckEquilibrium(const std::vector<double>& depths, double tolerance)
 
 TEST(Slab, EquilibriumLong)
 {
-  CheckEquilibrium({ 0.5, 1.0, 2.0, 5.0 }, 0.01);
+  CheckEquilibrium({0.5, 1.0, 2.0, 5.0}, 0.01);
 }
 
 } // namespace

@@ -15,17 +15,17 @@ namespace smokevis
 class Solved
 {
 public:
-  explicit Solved(SceneDescription description, double tolerance = 0.01, std::uint64_t seed = 1,
-    int threads = 0)
-    : TheScene(std::make_shared<const Scene>(std::move(description)))
+  explicit Solved(
+    SceneDescription description, double tolerance = 0.01, std::uint64_t seed = 1, int threads = 0)
+      : TheScene(std::make_shared<const Scene>(std::move(description)))
   {
     LightFieldOptions options;
     options.Tolerance = tolerance;
     options.Seed = seed;
     options.Threads = threads;
     Progress progress;
-    this->Field = std::make_shared<const LightField>(
-      SolveLightField(*this->TheScene, options, progress));
+    this->Field =
+      std::make_shared<const LightField>(SolveLightField(*this->TheScene, options, progress));
     this->TheView = std::make_unique<const View>(this->TheScene, this->Field);
   }
 
@@ -45,7 +45,7 @@ public:
 
   Estimate Fluence(const Vec3& point) const
   {
-    return this->Fluence(std::vector<std::int64_t>{ this->TheScene->Smoke().Locate(point) });
+    return this->Fluence(std::vector<std::int64_t>{this->TheScene->Smoke().Locate(point)});
   }
 
   /// Illuminance [lx], averaged over patches of equal area.
@@ -72,8 +72,8 @@ public:
     {
       const auto cell = static_cast<std::int64_t>(i);
       const Vec3 size = smoke.CellSize(cell);
-      const double weight = (1.0 - this->TheScene->Albedo()) *
-        this->TheScene->ExtinctionScale(0) * smoke.Extinction(cell) * size.x * size.y * size.z;
+      const double weight = (1.0 - this->TheScene->Albedo()) * this->TheScene->ExtinctionScale(0) *
+                            smoke.Extinction(cell) * size.x * size.y * size.z;
       const std::size_t index = this->Field->CellIndex(0, cell);
       direct += weight * this->Field->DirectFluence[index];
       multiple.Add(this->Field->MultipleFluence[index], weight);
@@ -104,7 +104,7 @@ public:
   Estimate Luminance(const Ray& ray) const
   {
     const Lanes lanes = this->Trace(ray).TotalLanes();
-    return { Mean(lanes), StandardError(lanes) };
+    return {Mean(lanes), StandardError(lanes)};
   }
 
   RayLight Trace(const Ray& ray) const
@@ -142,8 +142,7 @@ private:
       {
         square += (value - mean) * (value - mean);
       }
-      return { (direct + mean) / count,
-        std::sqrt(square / (Batches * (Batches - 1.0))) / count };
+      return {(direct + mean) / count, std::sqrt(square / (Batches * (Batches - 1.0))) / count};
     }
 
   private:

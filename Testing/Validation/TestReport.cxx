@@ -57,22 +57,22 @@ std::vector<std::string> SplitLine(const std::string& line)
 //--------------------------------------------------------------------------------------------------
 void Head(const std::string& caption)
 {
-  std::printf("%s\n| %-44s | %12s | %12s | %12s | %6s |\n", caption.c_str(), "quantity", "reference",
-    "value", "deviation", "z");
+  std::printf("%s\n| %-44s | %12s | %12s | %12s | %6s |\n", caption.c_str(), "quantity",
+    "reference", "value", "deviation", "z");
   std::fflush(stdout);
 }
 
 //--------------------------------------------------------------------------------------------------
-void Relative(const std::string& name, double reference, double value, double tolerance,
-  double standardError)
+void Relative(
+  const std::string& name, double reference, double value, double tolerance, double standardError)
 {
   Row(name, reference, value, standardError);
   Judge(name, reference, value, tolerance * std::abs(reference) + 3.0 * standardError);
 }
 
 //--------------------------------------------------------------------------------------------------
-void Absolute(const std::string& name, double reference, double value, double tolerance,
-  double standardError)
+void Absolute(
+  const std::string& name, double reference, double value, double tolerance, double standardError)
 {
   Row(name, reference, value, standardError);
   Judge(name, reference, value, tolerance + 3.0 * standardError);

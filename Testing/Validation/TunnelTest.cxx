@@ -13,7 +13,7 @@ namespace
 using namespace smokevis;
 
 /// Plain contrast (equation 4), without the observer's own noise.
-const Observer PlainObserver{ 0.0 };
+const Observer PlainObserver{0.0};
 
 struct BarMeans
 {
@@ -30,13 +30,13 @@ BarMeans ReferenceBars(const Scene& scene, std::uint64_t samples)
     return [&, first, count](Pcg32& random)
     {
       const int bar = first + 2 * static_cast<int>(count * random.Uniform());
-      const Vec3 point(4.0, 0.35 + 0.3 * (bar + random.Uniform()) / 9.0,
-        0.35 + 0.3 * random.Uniform());
-      return Ray{ eye, glm::normalize(point - eye) };
+      const Vec3 point(
+        4.0, 0.35 + 0.3 * (bar + random.Uniform()) / 9.0, 0.35 + 0.3 * random.Uniform());
+      return Ray{eye, glm::normalize(point - eye)};
     };
   };
-  return { reference.MeanRadiance(bars(0, 5), samples, 1),
-    reference.MeanRadiance(bars(1, 4), samples, 2) };
+  return {
+    reference.MeanRadiance(bars(0, 5), samples, 1), reference.MeanRadiance(bars(1, 4), samples, 2)};
 }
 
 SceneDescription WithLamp(double x)
@@ -50,11 +50,11 @@ struct Published
 {
   double Lit, Dark, Contrast;
 };
-constexpr Published InTheDark = { 0.01926, 0.00092, 0.8205 };
-constexpr Published UnderALamp = { 0.02528, 0.00693, 0.533 };
+constexpr Published InTheDark = {0.01926, 0.00092, 0.8205};
+constexpr Published UnderALamp = {0.02528, 0.00693, 0.533};
 
-// The integrator against the other three renderers: half of the last digit that is given is 0.5 % of
-// the dark bars, so that 1 % it is for all.
+// The integrator against the other three renderers: half of the last digit that is given is 0.5 %
+// of the dark bars, so that 1 % it is for all.
 TEST(Tunnel, ReferenceIntegratorAgrees)
 {
   report::Head("Tunnel, reference integrator");
@@ -68,16 +68,15 @@ TEST(Tunnel, ReferenceIntegratorAgrees)
     "dark, unlit bars", InTheDark.Dark, inTheDark.Dark.Mean, 0.01, inTheDark.Dark.StandardError);
   report::Relative(
     "lamp, lit bars", UnderALamp.Lit, underALamp.Lit.Mean, 0.01, underALamp.Lit.StandardError);
-  report::Relative("lamp, unlit bars", UnderALamp.Dark, underALamp.Dark.Mean, 0.01,
-    underALamp.Dark.StandardError);
+  report::Relative(
+    "lamp, unlit bars", UnderALamp.Dark, underALamp.Dark.Mean, 0.01, underALamp.Dark.StandardError);
 }
 
-void CheckSolver(const std::string& name, const SceneDescription& description,
-  const Published& published)
+void CheckSolver(
+  const std::string& name, const SceneDescription& description, const Published& published)
 {
   const Solved solved(description);
-  const SignMeasurement sign =
-    MeasureSign(*solved.TheView, 0, scenes::TunnelEye, PlainObserver);
+  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, scenes::TunnelEye, PlainObserver);
   EXPECT_TRUE(sign.InView);
   report::Relative(name + ", visible fraction", 1.0, sign.VisibleFraction, 1e-3);
   report::Relative(name + ", optical depth", 4.0, sign.OpticalDepth, 1e-3);
@@ -96,8 +95,9 @@ TEST(Tunnel, SolverAgrees)
   CheckSolver("lamp", WithLamp(0.5), UnderALamp);
 }
 
-// A lamp near the eye throws about 4.9 times the veil over the sign that the same lamp near the sign
-// does, and lowers contrast more. That figure comes without the lamps' exact places, so 3 % is allowed.
+// A lamp near the eye throws about 4.9 times the veil over the sign that the same lamp near the
+// sign does, and lowers contrast more. That figure comes without the lamps' exact places, so 3 % is
+// allowed.
 TEST(Tunnel, LampNearTheEyeHarmsMore)
 {
   report::Head("Tunnel, lamp near the eye (x = 0.5) and near the sign (x = 3.5)");
@@ -116,7 +116,7 @@ TEST(Tunnel, LampNearTheEyeHarmsMore)
   double second = 0.0;
   for (std::size_t cell = 0; cell < 9; ++cell)
   {
-    const Ray ray{ eye, glm::normalize(none.TheScene->Lights().CellCentre(cell) - eye) };
+    const Ray ray{eye, glm::normalize(none.TheScene->Lights().CellCentre(cell) - eye)};
     first += nearEye.Trace(ray).Veil();
     second += nearSign.Trace(ray).Veil();
   }
