@@ -54,8 +54,9 @@ class Geometry
 public:
   Geometry();
   /// Builds the search structures. Exact duplicates and triangles without area are left out.
-  /// @param sceneSize diagonal of all that rays come from, smoke included [m]
-  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize);
+  /// @param sceneSize diagonal of all that rays come from, smoke included [m]; at least that of the
+  /// shapes is taken
+  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0);
   ~Geometry();
   Geometry(Geometry&&) noexcept;
   Geometry& operator=(Geometry&&) noexcept;
