@@ -1,6 +1,6 @@
 #include "View.h"
 
-#include "DirectLight.h"
+#include "NearField.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,6 +134,8 @@ struct View::Implementation
   std::vector<float> MultipleMean;
   std::vector<std::int32_t> NearIndex;
   std::vector<NearCell> NearCells;
+  /// Of each light that is near to a cell.
+  std::vector<std::unique_ptr<NearField>> NearFields;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
 };
@@ -224,12 +226,28 @@ void View::Implementation::FindNearCells()
         }
       }
     });
+  std::vector<double> reach(lights.Lights().size(), 0.0);
   for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
   {
+    for (const std::uint32_t light : nearLights[cell])
+    {
+      const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+      reach[light] = std::max(reach[light],
+        root.Distance(smoke.CellCentre(cell)) + 0.5 * glm::length(smoke.CellSize(cell)));
+    }
     if (!nearLights[cell].empty())
     {
       this->NearIndex[cell] = static_cast<std::int32_t>(this->NearCells.size());
       this->NearCells.push_back({std::move(nearLights[cell]), {}, {}, {}});
+    }
+  }
+  this->NearFields.resize(reach.size());
+  for (std::size_t light = 0; light < reach.size(); ++light)
+  {
+    if (reach[light] > 0.0)
+    {
+      this->NearFields[light] =
+        std::make_unique<NearField>(this->TheScene, this->Direct, light, reach[light]);
     }
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
@@ -409,9 +427,10 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
         const double tangent = std::tan(angle);
         const double distance = std::clamp(middle + width * tangent, from, to);
         const double step = GaussWeights[i] * (high - low) * width * (1.0 + tangent * tangent);
-        const Spectrum fluence =
-          this->Direct.Fluence(light, origin + distance * direction, near.Clear[index]);
-        sum += fluence[band] * step * extinction * std::exp(-extinction * (distance - begin));
+        const Vec3 point = origin + distance * direction;
+        const double fluence = near.Clear[index] ? this->NearFields[light]->Fluence(point, band)
+                                                 : this->Direct.Fluence(light, point)[band];
+        sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
       }
     }
   }

@@ -1,0 +1,248 @@
+#include "NearField.h"
+
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Steps of a level's lattice from the plate to the level's end.
+constexpr int Steps = 6;
+/// A level has no more steps than this along one side of the plate.
+constexpr double MostStepsAcross = 96.0;
+/// Nodes in the plane of the plate are taken this share of the step in front of it.
+constexpr double Lift = 1e-4;
+
+/// Shortest edge of a group's leaves [m].
+double FinestEdge(const EmitterSet& lights, const LightGroup& group)
+{
+  if (group.FirstChild >= 0)
+  {
+    return std::min(FinestEdge(lights, lights.Groups()[group.FirstChild]),
+      FinestEdge(lights, lights.Groups()[group.FirstChild + 1]));
+  }
+  double finest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 4; ++i)
+  {
+    const double edge = glm::length(group.Corners[(i + 1) % 4] - group.Corners[i]);
+    finest = edge > 0.0 ? std::min(finest, edge) : finest;
+  }
+  return finest;
+}
+
+} // namespace
+
+struct NearField::Level
+{
+  /// Distance from the plate that it reaches [m].
+  double Reach = 0.0;
+  std::array<double, 3> First{}, Step{};
+  std::array<int, 3> Count{};
+  /// NaN: not computed yet. Band after band, first axis fastest.
+  mutable std::vector<std::atomic<float>> Values;
+
+  std::size_t Index(const std::array<int, 3>& node, int band) const
+  {
+    return ((static_cast<std::size_t>(band) * this->Count[2] + node[2]) * this->Count[1] +
+             node[1]) *
+             this->Count[0] +
+           node[0];
+  }
+};
+
+NearField::NearField(
+  const Scene& scene, const DirectLight& direct, std::size_t light, double reach)
+    : Scene_(scene), Direct_(direct), Light_(light)
+{
+  const EmitterSet& lights = scene.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  this->Axes_[2] = root.Normal;
+  const Vec3 along = root.Corners[1] - root.Corners[0];
+  this->Axes_[0] = glm::normalize(along - glm::dot(along, root.Normal) * root.Normal);
+  this->Axes_[1] = glm::cross(root.Normal, this->Axes_[0]);
+  std::array<double, 2> low = {1e300, 1e300};
+  std::array<double, 2> high = {-1e300, -1e300};
+  for (const Vec3& corner : root.Corners)
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double place = glm::dot(corner - root.Centre, this->Axes_[axis]);
+      low[axis] = std::min(low[axis], place);
+      high[axis] = std::max(high[axis], place);
+    }
+  }
+  this->Centre_ = root.Centre;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->Half_[axis] = 0.5 * (high[axis] - low[axis]);
+    this->Centre_ += 0.5 * (low[axis] + high[axis]) * this->Axes_[axis];
+  }
+  const double longest = 2.0 * std::max(this->Half_[0], this->Half_[1]);
+  const std::int64_t cell =
+    scene.Smoke().Locate(this->Centre_ + 10.0 * scene.Shapes().Tolerance() * root.Normal);
+  this->Extinction_ = cell < 0 ? 0.0 : scene.Smoke().Extinction(cell);
+
+  // The innermost level follows the plate's pattern.
+  double first = std::max(FinestEdge(lights, root), Steps * longest / MostStepsAcross);
+  first = std::min(first, std::max(reach, 1e-9));
+  for (double distance = first;; distance *= 2.0)
+  {
+    auto level = std::make_unique<Level>();
+    level->Reach = distance;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
+      const int steps = static_cast<int>(std::ceil(2.0 * half / (distance / Steps) - 1e-9));
+      level->Count[axis] = steps + 1;
+      level->Step[axis] = 2.0 * half / steps;
+      level->First[axis] = axis < 2 ? -half : 0.0;
+    }
+    level->Values = std::vector<std::atomic<float>>(static_cast<std::size_t>(level->Count[0]) *
+                                                    level->Count[1] * level->Count[2] *
+                                                    scene.Bands());
+    for (std::atomic<float>& value : level->Values)
+    {
+      value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+    }
+    this->Levels_.push_back(std::move(level));
+    if (distance >= reach)
+    {
+      break;
+    }
+  }
+}
+
+NearField::~NearField() = default;
+
+std::size_t NearField::Nodes() const
+{
+  return this->Nodes_;
+}
+
+Vec3 NearField::ToPlate(const Vec3& point) const
+{
+  const Vec3 from = point - this->Centre_;
+  return {glm::dot(from, this->Axes_[0]), glm::dot(from, this->Axes_[1]),
+    glm::dot(from, this->Axes_[2])};
+}
+
+Vec3 NearField::FromPlate(const Vec3& place) const
+{
+  return this->Centre_ + place.x * this->Axes_[0] + place.y * this->Axes_[1] +
+         place.z * this->Axes_[2];
+}
+
+double NearField::PlateAngle(const Vec3& place) const
+{
+  // Sum over the corners of atan(x y / (z r)), with signs (Gossman et al. for an off-axis
+  // rectangle). Two sums of two arctangents each are joined.
+  const double z = place.z;
+  double angle = 0.0;
+  for (const double sideX : {-1.0, 1.0})
+  {
+    const double x = sideX * this->Half_[0] - place.x;
+    std::array<double, 2> tangent;
+    for (const int side : {0, 1})
+    {
+      const double y = (side == 0 ? -1.0 : 1.0) * this->Half_[1] - place.y;
+      tangent[side] = std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
+    }
+    angle += sideX * (tangent[1] - tangent[0]);
+  }
+  return angle;
+}
+
+double NearField::EvenDepth(const Vec3& place, int band) const
+{
+  return this->Extinction_ * this->Scene_.ExtinctionScale(band) * glm::length(place);
+}
+
+float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
+{
+  std::atomic<float>& kept = level.Values[level.Index(node, band)];
+  const float known = kept.load(std::memory_order_relaxed);
+  if (!std::isnan(known))
+  {
+    return known;
+  }
+  Vec3 place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = level.First[axis] + node[axis] * level.Step[axis];
+  }
+  place.z = std::max(place.z, Lift * level.Step[2]);
+  const Spectrum fluence = this->Direct_.Fluence(this->Light_, this->FromPlate(place), true);
+  const double angle = this->PlateAngle(place);
+  for (int each = 0; each < this->Scene_.Bands(); ++each)
+  {
+    const double value = fluence[each] > 0.0 && angle > 0.0
+                           ? std::log(fluence[each] / angle) + this->EvenDepth(place, each)
+                           : -std::numeric_limits<double>::infinity();
+    level.Values[level.Index(node, each)].store(
+      static_cast<float>(value), std::memory_order_relaxed);
+  }
+  this->Nodes_.fetch_add(1, std::memory_order_relaxed);
+  return kept.load(std::memory_order_relaxed);
+}
+
+double NearField::Fluence(const Vec3& point, int band) const
+{
+  const Vec3 place = this->ToPlate(point);
+  if (!(place.z > 0.0))
+  {
+    return 0.0;
+  }
+  const double away = std::max(
+    {std::abs(place.x) - this->Half_[0], std::abs(place.y) - this->Half_[1], place.z, 0.0});
+  const auto found = std::lower_bound(this->Levels_.begin(), this->Levels_.end(), away,
+    [](const std::unique_ptr<Level>& level, double value) { return level->Reach < value; });
+  if (found == this->Levels_.end())
+  {
+    return this->Direct_.Fluence(this->Light_, point, true)[band];
+  }
+  const Level& level = **found;
+  std::array<int, 3> node;
+  std::array<double, 3> share;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double at = (place[axis] - level.First[axis]) / level.Step[axis];
+    node[axis] = std::clamp(static_cast<int>(at), 0, level.Count[axis] - 2);
+    share[axis] = std::clamp(at - node[axis], 0.0, 1.0);
+  }
+  std::array<double, 8> weights;
+  std::array<float, 8> values;
+  double logarithm = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    std::array<int, 3> other = node;
+    double weight = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const bool upper = (corner >> axis & 1) != 0;
+      other[axis] += upper ? 1 : 0;
+      weight *= upper ? share[axis] : 1.0 - share[axis];
+    }
+    weights[corner] = weight;
+    values[corner] = this->NodeValue(level, other, band);
+    logarithm += weight * values[corner];
+  }
+  const double even = this->PlateAngle(place);
+  if (std::isfinite(logarithm))
+  {
+    return even * std::exp(logarithm - this->EvenDepth(place, band));
+  }
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    sum += weights[corner] * std::exp(static_cast<double>(values[corner]));
+  }
+  return even * sum * std::exp(-this->EvenDepth(place, band));
+}
+
+} // namespace smokevis

@@ -1,0 +1,59 @@
+// The fluence around one light, kept on nested lattices so that many views may share it.
+#pragma once
+
+#include "DirectLight.h"
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace smokevis
+{
+
+struct LightGroup;
+
+/// Boxes around a light's plate, each twice as far from it as the one inside. Their nodes hold the
+/// light's fluence over that of an evenly bright plate in even smoke, a closed form: what is left
+/// varies slowly and is interpolated. A node is computed when it is first asked for; its value
+/// depends on the scene alone, so that it does not matter which thread does so.
+class NearField
+{
+public:
+  /// @param reach distance from the plate up to which fluences will be asked for [m]
+  NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach);
+  ~NearField();
+
+  /// Fluence at a point that sees the whole light [lx].
+  double Fluence(const Vec3& point, int band) const;
+
+  /// Nodes computed so far.
+  std::size_t Nodes() const;
+
+private:
+  struct Level;
+
+  /// Logarithm of the light's fluence at a node over the closed form's; -infinity where it is 0.
+  float NodeValue(const Level& level, const std::array<int, 3>& node, int band) const;
+  /// Place relative to the plate's centre: along its edges and along its normal.
+  Vec3 ToPlate(const Vec3& point) const;
+  Vec3 FromPlate(const Vec3& place) const;
+  /// Solid angle of the plate's rectangle at a place in front of it.
+  double PlateAngle(const Vec3& place) const;
+  /// Optical depth of even smoke between a place and the plate's centre.
+  double EvenDepth(const Vec3& place, int band) const;
+
+  const Scene& Scene_;
+  const DirectLight& Direct_;
+  std::size_t Light_;
+  Vec3 Centre_{0.0};
+  std::array<Vec3, 3> Axes_;
+  /// Half the plate's edges.
+  std::array<double, 2> Half_{};
+  /// Extinction at the plate, at 633 nm [1/m].
+  double Extinction_ = 0.0;
+  std::vector<std::unique_ptr<Level>> Levels_;
+  mutable std::atomic<std::size_t> Nodes_{0};
+};
+
+} // namespace smokevis
