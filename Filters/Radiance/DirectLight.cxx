@@ -27,6 +27,8 @@ constexpr double PathRatio = 0.1;
 constexpr double LeafRatio = 0.7;
 constexpr int LeafSplits = 4;
 constexpr double CutRatio = 0.02;
+/// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
+constexpr double WaysEdges = 2.0;
 /// Shadow rays along one edge of a light that is partly hidden.
 constexpr int ShadowEdge = 6;
 /// A box or triangle as large as this share of its distance to the light is split.
@@ -40,6 +42,16 @@ constexpr int TriangleSplits = 4;
 constexpr std::array<double, 2> Nodes2 = {0.21132486540518712, 0.78867513459481288};
 constexpr std::array<double, 3> Nodes3 = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> Weights3 = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+/// Weights of the quadratic through three Gauss points.
+std::array<double, 3> QuadraticWeights(double t)
+{
+  const double a = t - Nodes3[0];
+  const double b = t - Nodes3[1];
+  const double c = t - Nodes3[2];
+  constexpr double step = Nodes3[1] - Nodes3[0];
+  return {b * c / (2.0 * step * step), -a * c / (step * step), a * b / (2.0 * step * step)};
+}
 
 Vec3 Bilinear(const std::array<Vec3, 4>& corners, double u, double v)
 {
@@ -122,6 +134,62 @@ double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) con
   return static_cast<double>(seen) / (ShadowEdge * ShadowEdge);
 }
 
+double DirectLight::Ways::At(const Vec3& place) const
+{
+  const auto u = QuadraticWeights(glm::dot(place - this->Corner, this->Along));
+  const auto v = QuadraticWeights(glm::dot(place - this->Corner, this->Up));
+  double sum = 0.0;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      sum += u[i] * v[j] * this->Extinction[j][i];
+    }
+  }
+  return std::max(0.0, sum);
+}
+
+std::optional<DirectLight::Ways> DirectLight::WaysTo(
+  const LightGroup& root, const Vec3& point) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const std::int64_t cell = smoke.Locate(point);
+  if (cell < 0 || root.FirstChild < 0)
+  {
+    return std::nullopt;
+  }
+  const Vec3 size = smoke.CellSize(cell);
+  if (root.Radius > WaysEdges * std::max({size.x, size.y, size.z}))
+  {
+    return std::nullopt;
+  }
+  Ways ways;
+  const Vec3 along = root.Corners[1] - root.Corners[0];
+  const Vec3 up = root.Corners[3] - root.Corners[0];
+  ways.Corner = root.Corners[0];
+  ways.Along = along / glm::dot(along, along);
+  ways.Up = up / glm::dot(up, up);
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
+      const double distance = glm::length(to);
+      ways.Extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
+    }
+  }
+  return ways;
+}
+
+double DirectLight::Depth(const Receiver& receiver, const Vec3& place) const
+{
+  const Vec3 to = place - receiver.Point;
+  const double distance = glm::length(to);
+  return receiver.Close
+           ? receiver.Close->At(place) * distance
+           : this->Scene_.Smoke().OpticalDepth(receiver.Point, to / distance, 0.0, distance);
+}
+
 DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receiver& receiver) const
 {
   const Vec3& point = receiver.Point;
@@ -131,7 +199,7 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receive
   {
     return {0.0, 1.0};
   }
-  const double depth = this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
+  const double depth = this->Depth(receiver, group.Centre);
   double least = this->Scene_.ExtinctionScale(0);
   for (int band = 1; band < this->Scene_.Bands(); ++band)
   {
@@ -238,9 +306,7 @@ void DirectLight::AddLeaf(
       {
         weight *= std::pow(cosine, leaf.Exponent);
       }
-      const double depth =
-        few ? path.MeanExtinction * distance
-            : this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
+      const double depth = few ? path.MeanExtinction * distance : this->Depth(receiver, target);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
@@ -314,9 +380,14 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
 Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  Receiver receiver{point, std::nullopt, clear};
+  if (root.Radius > PathRatio * glm::length(root.Centre - point))
+  {
+    receiver.Close = this->WaysTo(root, point);
+  }
   Spectrum sum{};
-  this->Gather(lights.Groups()[lights.Lights()[light]], {point, std::nullopt, clear}, nullptr,
-    LeafSplits, sum);
+  this->Gather(root, receiver, nullptr, LeafSplits, sum);
   return sum;
 }
 

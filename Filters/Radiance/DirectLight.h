@@ -33,6 +33,17 @@ public:
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
 
 private:
+  /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
+  /// [1/m]: a polynomial through three by three of them.
+  struct Ways
+  {
+    Vec3 Corner{0.0};
+    /// Edges of the plate over the squares of their lengths.
+    Vec3 Along{0.0}, Up{0.0};
+    std::array<std::array<double, 3>, 3> Extinction{};
+
+    double At(const Vec3& place) const;
+  };
   struct Receiver
   {
     Vec3 Point;
@@ -40,6 +51,8 @@ private:
     std::optional<Vec3> Normal;
     /// Nothing hides the light.
     bool Clear = false;
+    /// Where the plate is close and small against what the smoke varies over.
+    std::optional<Ways> Close{};
   };
   /// What the way to a light does to its light.
   struct Path
@@ -52,6 +65,10 @@ private:
 
   /// Share of a group that is not hidden from a point.
   double VisibleShare(const LightGroup& group, const Vec3& point) const;
+  /// The ways to a light, where they are few enough to stand for all.
+  std::optional<Ways> WaysTo(const LightGroup& root, const Vec3& point) const;
+  /// Optical depth at 633 nm between the receiver and a place on the light.
+  double Depth(const Receiver& receiver, const Vec3& place) const;
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;

@@ -23,7 +23,7 @@ namespace
 
 /// Sweeps of the first window in which the orders of scattering build up; each next one is twice as
 /// long. Sweeps that may be drawn in all.
-constexpr int FirstWindow = 3;
+constexpr int FirstWindow = 2;
 constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.

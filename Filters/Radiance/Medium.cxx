@@ -261,69 +261,81 @@ void Medium::WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& directio
   const Vec3& inverse, double begin, double end, Visit&& visit)
 {
   const Vec3 start = origin + begin * direction;
-  std::array<int, 3> index;
-  std::array<double, 3> next;
-  std::array<int, 3> step;
-  std::array<const double*, 3> plane;
-  for (int axis = 0; axis < 3; ++axis)
+  // One variable an axis, not arrays: they stay in registers.
+  struct Axis
   {
-    index[axis] = grid.Index(axis, start[axis]);
+    int Step = 0;
+    /// Planes until the grid ends.
+    int Left = 0;
+    const double* Plane = nullptr;
+    double Next = Infinity;
+    double Origin = 0.0;
+    double Inverse = 0.0;
+    std::int64_t Stride = 0;
+  };
+  std::int64_t cell = grid.FirstCell;
+  const auto enter = [&](int axis, std::int64_t stride)
+  {
+    Axis result;
+    int index = grid.Index(axis, start[axis]);
     const double* nodes = grid.Nodes[axis].data();
+    result.Origin = origin[axis];
+    result.Inverse = inverse[axis];
     if (direction[axis] > 0.0)
     {
-      step[axis] = 1;
-      plane[axis] = nodes + index[axis] + 1;
+      result.Step = 1;
+      result.Left = grid.Size[axis] - 1 - index;
+      result.Plane = nodes + index + 1;
     }
     else if (direction[axis] < 0.0)
     {
-      step[axis] = -1;
+      result.Step = -1;
       // A start on a plane lies in the cell that the ray goes into.
-      if (start[axis] <= nodes[index[axis]] && index[axis] > 0)
+      if (start[axis] <= nodes[index] && index > 0)
       {
-        --index[axis];
+        --index;
       }
-      plane[axis] = nodes + index[axis];
+      result.Left = index;
+      result.Plane = nodes + index;
     }
-    else
+    if (result.Step != 0)
     {
-      step[axis] = 0;
-      plane[axis] = nodes;
-      next[axis] = Infinity;
-      continue;
+      result.Next = (*result.Plane - result.Origin) * result.Inverse;
     }
-    next[axis] = (*plane[axis] - origin[axis]) * inverse[axis];
-  }
-  const std::array<std::int64_t, 3> stride = {step[0],
-    static_cast<std::int64_t>(step[1]) * grid.Size[0],
-    static_cast<std::int64_t>(step[2]) * grid.Size[0] * grid.Size[1]};
-  std::int64_t cell = grid.Cell(index);
+    result.Stride = result.Step * stride;
+    cell += index * stride;
+    return result;
+  };
+  Axis x = enter(0, 1);
+  Axis y = enter(1, grid.Size[0]);
+  Axis z = enter(2, static_cast<std::int64_t>(grid.Size[0]) * grid.Size[1]);
   double at = begin;
-  for (;;)
+  const auto cross = [&](Axis& axis)
   {
-    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-    const double leave = next[axis];
-    if (leave >= end)
+    if (axis.Next >= end)
     {
-      break;
+      return false;
     }
-    if (leave > at)
+    if (axis.Next > at)
     {
-      visit(cell, at, leave);
-      at = leave;
+      visit(cell, at, axis.Next);
+      at = axis.Next;
     }
-    index[axis] += step[axis];
-    if (index[axis] < 0 || index[axis] >= grid.Size[axis])
+    // Only rounding leads out before the end: the rest belongs to the last cell.
+    if (axis.Left-- == 0)
     {
-      // Only rounding leads out before the end: the rest belongs to the last cell.
-      if (end > at)
-      {
-        visit(cell, at, end);
-      }
-      return;
+      return false;
     }
-    cell += stride[axis];
-    plane[axis] += step[axis];
-    next[axis] = (*plane[axis] - origin[axis]) * inverse[axis];
+    cell += axis.Stride;
+    axis.Plane += axis.Step;
+    axis.Next = (*axis.Plane - axis.Origin) * axis.Inverse;
+    return true;
+  };
+  bool inside = true;
+  while (inside)
+  {
+    inside = x.Next < y.Next ? (x.Next < z.Next ? cross(x) : cross(z))
+                             : (y.Next < z.Next ? cross(y) : cross(z));
   }
   if (end > at)
   {
