@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include <embree3/rtcore.h>
 
@@ -40,19 +41,31 @@ struct Shapes
   SceneHandle Tree;
 };
 
-std::vector<std::array<std::uint32_t, 3>> UsefulTriangles(
-  const SurfaceMesh& mesh, std::vector<std::uint32_t>& cells)
+/// Corners in an order of their own, by which equal triangles are found.
+struct SortedTriangle
 {
-  using Key = std::array<double, 9>;
-  std::set<Key> known;
-  std::vector<std::array<std::uint32_t, 3>> kept;
+  std::array<Vec3, 3> Corner;
+  std::size_t Index;
+
+  std::array<double, 9> Key() const
+  {
+    return {this->Corner[0].x, this->Corner[0].y, this->Corner[0].z, this->Corner[1].x,
+      this->Corner[1].y, this->Corner[1].z, this->Corner[2].x, this->Corner[2].y,
+      this->Corner[2].z};
+  }
+};
+
+/// Indices of the triangles that have an area and are not repeated, in their order.
+std::vector<std::size_t> UsefulTriangles(const SurfaceMesh& mesh)
+{
+  std::vector<SortedTriangle> sorted;
   for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
   {
-    const auto& triangle = mesh.Triangles[i];
-    std::array<Vec3, 3> corner;
+    SortedTriangle triangle{{}, i};
+    std::array<Vec3, 3>& corner = triangle.Corner;
     for (int c = 0; c < 3; ++c)
     {
-      corner[c] = mesh.Points[triangle[c]];
+      corner[c] = mesh.Points[mesh.Triangles[i][c]];
       if (!std::isfinite(corner[c].x) || !std::isfinite(corner[c].y) || !std::isfinite(corner[c].z))
       {
         throw Error("surface cell " + std::to_string(mesh.TriangleCell[i]),
@@ -70,15 +83,33 @@ std::vector<std::array<std::uint32_t, 3>> UsefulTriangles(
       [](const Vec3& a, const Vec3& b) {
         return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
       });
-    const Key key = {corner[0].x, corner[0].y, corner[0].z, corner[1].x, corner[1].y, corner[1].z,
-      corner[2].x, corner[2].y, corner[2].z};
-    if (known.insert(key).second)
-    {
-      kept.push_back(triangle);
-      cells.push_back(mesh.TriangleCell[i]);
-    }
+    sorted.push_back(triangle);
   }
+  std::stable_sort(sorted.begin(), sorted.end(),
+    [](const SortedTriangle& a, const SortedTriangle& b) { return a.Key() < b.Key(); });
+  const auto end = std::unique(sorted.begin(), sorted.end(),
+    [](const SortedTriangle& a, const SortedTriangle& b) { return a.Key() == b.Key(); });
+  std::vector<std::size_t> kept;
+  std::transform(sorted.begin(), end, std::back_inserter(kept),
+    [](const SortedTriangle& triangle) { return triangle.Index; });
+  std::sort(kept.begin(), kept.end());
   return kept;
+}
+
+/// What Embree's filter callback adds to: every triangle that a line meets.
+struct Gathering
+{
+  RTCIntersectContext Context;
+  std::vector<std::pair<unsigned, float>>* Met;
+};
+
+void GatherAll(const RTCFilterFunctionNArguments* arguments)
+{
+  const auto* gathering = reinterpret_cast<const Gathering*>(arguments->context);
+  gathering->Met->emplace_back(RTCHitN_primID(arguments->hit, arguments->N, 0),
+    RTCRayN_tfar(arguments->ray, arguments->N, 0));
+  // Not taken, so that the search goes on behind it.
+  arguments->valid[0] = 0;
 }
 
 } // namespace
@@ -92,7 +123,7 @@ struct Geometry::Implementation
 
   void Add(Shapes& shapes, const SurfaceMesh& mesh) const
   {
-    const auto triangles = UsefulTriangles(mesh, shapes.Cell);
+    const std::vector<std::size_t> triangles = UsefulTriangles(mesh);
     if (triangles.empty())
     {
       return;
@@ -118,7 +149,8 @@ struct Geometry::Implementation
     }
     for (std::size_t i = 0; i < triangles.size(); ++i)
     {
-      const auto& triangle = triangles[i];
+      const auto& triangle = mesh.Triangles[triangles[i]];
+      shapes.Cell.push_back(mesh.TriangleCell[triangles[i]]);
       std::copy(triangle.begin(), triangle.end(), indices + 3 * i);
       const Vec3& corner = mesh.Points[triangle[0]];
       shapes.Corner.push_back(corner);
@@ -127,7 +159,9 @@ struct Geometry::Implementation
     }
     rtcCommitGeometry(geometry);
     shapes.Tree.reset(rtcNewScene(this->Device.get()));
-    rtcSetSceneFlags(shapes.Tree.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(shapes.Tree.get(),
+      static_cast<RTCSceneFlags>(
+        RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcAttachGeometry(shapes.Tree.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(shapes.Tree.get());
@@ -171,16 +205,55 @@ struct Geometry::Implementation
     {
       return hit;
     }
-    hit.Triangle = query.hit.primID;
+    return this->MakeHit(
+      shapes, origin, direction, begin, end, query.hit.primID, begin + query.ray.tfar);
+  }
+
+  /// A hit at a distance that is known to single precision.
+  Hit MakeHit(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
+    double end, unsigned triangle, double rough) const
+  {
+    Hit hit;
+    hit.Triangle = triangle;
     // The plane of the triangle gives the distance to double precision.
-    const Vec3& normal = shapes.Normal[hit.Triangle];
+    const Vec3& normal = shapes.Normal[triangle];
     const double facing = glm::dot(normal, direction);
-    const double rough = begin + query.ray.tfar;
-    const double exact = glm::dot(normal, shapes.Corner[hit.Triangle] - origin) / facing;
+    const double exact = glm::dot(normal, shapes.Corner[triangle] - origin) / facing;
     hit.Distance = std::abs(exact - rough) <= 100.0 * this->Tolerance ? exact : rough;
     hit.Distance = std::clamp(hit.Distance, begin, end);
     hit.Side = facing < 0.0 ? 0 : 1;
     return hit;
+  }
+
+  /// All hits of a line, nearest first.
+  void IntersectAll(const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin,
+    double end, bool emitter, std::vector<Hit>& hits) const
+  {
+    hits.clear();
+    if (!shapes.Tree || !(end > begin))
+    {
+      return;
+    }
+    thread_local std::vector<std::pair<unsigned, float>> met;
+    met.clear();
+    RTCRayHit query;
+    query.ray = MakeRay(origin + begin * direction - this->Centre, direction, end - begin);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    Gathering gathering;
+    rtcInitIntersectContext(&gathering.Context);
+    gathering.Context.filter = GatherAll;
+    gathering.Met = &met;
+    rtcIntersect1(shapes.Tree.get(), &gathering.Context, &query);
+    for (const auto& [triangle, distance] : met)
+    {
+      hits.push_back(
+        this->MakeHit(shapes, origin, direction, begin, end, triangle, begin + distance));
+      hits.back().Emitter = emitter;
+    }
+    std::sort(hits.begin(), hits.end(),
+      [](const Hit& a, const Hit& b)
+      { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Triangle < b.Triangle; });
   }
 
   /// Whether a plate that was hit lies in the surface that was hit, to within the tolerance.
@@ -304,11 +377,19 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     hit.Side = 1 - hit.Side;
     return hit;
   };
+  thread_local std::vector<Hit> surfaces;
+  thread_local std::vector<Hit> plates;
+  self.IntersectAll(self.Surfaces, origin, direction, begin, end, false, surfaces);
+  self.IntersectAll(self.Emitters, origin, direction, begin, end, true, plates);
+  auto nextSurface = surfaces.begin();
+  auto nextPlate = plates.begin();
   while (end > begin)
   {
-    Hit surface;
-    Hit plate;
-    self.IntersectBoth(origin, direction, begin, end, surface, plate);
+    const auto behind = [begin](const Hit& hit) { return hit.Distance >= begin; };
+    nextSurface = std::find_if(nextSurface, surfaces.end(), behind);
+    nextPlate = std::find_if(nextPlate, plates.end(), behind);
+    const Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
+    const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
     if (!surface.Found() && !plate.Found())
     {
       return;
