@@ -29,6 +29,12 @@ constexpr int LeafSplits = 4;
 constexpr double CutRatio = 0.02;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 2.0;
+/// Cells along the edges of the smallest block in which ways tell of each other, error of an
+/// optical depth that is told so, and where in the block it is measured.
+constexpr int SmallestBlock = 4;
+constexpr double WayTolerance = 0.004;
+constexpr std::array<std::array<double, 3>, 3> WayChecks = {
+  {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
 /// Shadow rays along one edge of a light that is partly hidden.
 constexpr int ShadowEdge = 6;
 /// A box or triangle as large as this share of its distance to the light is split.
@@ -65,6 +71,30 @@ double BilinearArea(const std::array<Vec3, 4>& corners, double u, double v)
   const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
   const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
   return glm::length(glm::cross(du, dv));
+}
+
+/// Where a cell lies between the first and the last of its block, 0 to 1.
+Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
+{
+  Vec3 share(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    share[axis] =
+      block.Size[axis] > 1 ? static_cast<double>(place[axis]) / (block.Size[axis] - 1) : 0.0;
+  }
+  return share;
+}
+
+/// Value between those at the corners of a box, first axis fastest.
+double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
+{
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    sum += corners[corner] * (corner & 1 ? share.x : 1.0 - share.x) *
+           (corner & 2 ? share.y : 1.0 - share.y) * (corner & 4 ? share.z : 1.0 - share.z);
+  }
+  return sum;
 }
 
 /// Mean place of exp(-2 x t) over t in (-1/2, 1/2), times -2: coth x - 1 / x.
@@ -185,6 +215,10 @@ double DirectLight::Depth(const Receiver& receiver, const Vec3& place) const
 {
   const Vec3 to = place - receiver.Point;
   const double distance = glm::length(to);
+  if (receiver.Extinction)
+  {
+    return *receiver.Extinction * distance;
+  }
   return receiver.Close
            ? receiver.Close->At(place) * distance
            : this->Scene_.Smoke().OpticalDepth(receiver.Point, to / distance, 0.0, distance);
@@ -386,6 +420,13 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
   {
     receiver.Close = this->WaysTo(root, point);
   }
+  return this->Fluence(light, receiver);
+}
+
+Spectrum DirectLight::Fluence(std::size_t light, const Receiver& receiver) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   Spectrum sum{};
   this->Gather(root, receiver, nullptr, LeafSplits, sum);
   return sum;
@@ -410,11 +451,123 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const Vec3 size = smoke.CellSize(cell);
   const double distance = root.Distance(centre);
   const bool splits = std::max({size.x, size.y, size.z}) > BoxRatio * distance;
-  return this->BoxFluence(light, centre, size, BoxSplits, splits && this->Clear(light, cell));
+  return this->BoxFluence(
+    light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt);
 }
 
-Spectrum DirectLight::BoxFluence(
-  std::size_t light, const Vec3& centre, const Vec3& size, int splits, bool clear) const
+double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Vec3 from = smoke.CellCentre(cell);
+  const double distance = glm::length(root.Centre - from);
+  return smoke.OpticalDepth(from, (root.Centre - from) / distance, 0.0, distance) / distance;
+}
+
+std::optional<std::array<double, 8>> DirectLight::BlockWays(
+  const LightGroup& root, const Medium::Block& block) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const auto cornerCell = [&](int corner)
+  {
+    return smoke.Cell(block,
+      {corner & 1 ? block.Size[0] - 1 : 0, corner & 2 ? block.Size[1] - 1 : 0,
+        corner & 4 ? block.Size[2] - 1 : 0});
+  };
+  const Vec3 low = smoke.CellCentre(cornerCell(0));
+  const Vec3 high = smoke.CellCentre(cornerCell(7));
+  const double distance =
+    glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
+  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance)
+  {
+    return std::nullopt;
+  }
+  std::array<double, 8> ways;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::int64_t cell = cornerCell(corner);
+    // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
+    if (smoke.Extinction(cell) == 0.0F && smoke.MaximumExtinction() > 0.0F)
+    {
+      return std::nullopt;
+    }
+    ways[corner] = this->WayExtinction(root, cell);
+  }
+  double scale = 0.0;
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    scale = std::max(scale, this->Scene_.ExtinctionScale(band));
+  }
+  for (const auto& share : WayChecks)
+  {
+    std::array<int, 3> place;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
+    }
+    const std::int64_t cell = smoke.Cell(block, place);
+    const double told = Trilinear(ways, BlockShare(block, place));
+    const double way = glm::length(root.Centre - smoke.CellCentre(cell));
+    if (std::abs(told - this->WayExtinction(root, cell)) * way * scale > WayTolerance)
+    {
+      return std::nullopt;
+    }
+  }
+  return ways;
+}
+
+std::size_t DirectLight::AddBlockFluence(
+  std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Medium& smoke = this->Scene_.Smoke();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
+  const auto ways =
+    largest >= SmallestBlock ? this->BlockWays(root, block) : std::optional<std::array<double, 8>>();
+  std::size_t told = 0;
+  if (!ways && largest > SmallestBlock)
+  {
+    const int half = (largest + 1) / 2;
+    for (int part = 0; part < 8; ++part)
+    {
+      Medium::Block child = block;
+      bool empty = false;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int first = part >> axis & 1 ? half : 0;
+        child.First[axis] += first;
+        child.Size[axis] = std::min(half, block.Size[axis] - first);
+        empty = empty || child.Size[axis] <= 0;
+      }
+      told += empty ? 0 : this->AddBlockFluence(light, child, sums);
+    }
+    return told;
+  }
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        const Spectrum value =
+          ways ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
+                   Trilinear(*ways, BlockShare(block, place)))
+               : this->CellFluence(light, cell);
+        told += ways ? 1 : 0;
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          sums[cell][band] += value[band];
+        }
+      }
+    }
+  }
+  return told;
+}
+
+Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size,
+  int splits, bool clear, std::optional<double> known) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
@@ -434,7 +587,7 @@ Spectrum DirectLight::BoxFluence(
     {
       const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
       const Spectrum value =
-        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear);
+        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear, known);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += 0.125 * value[band];
@@ -470,7 +623,8 @@ Spectrum DirectLight::BoxFluence(
   {
     place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
   }
-  Spectrum value = this->Fluence(light, place, clear);
+  Spectrum value = known ? this->Fluence(light, Receiver{place, std::nullopt, clear, {}, known})
+                         : this->Fluence(light, place, clear);
   double curvature = 1.0;
   if (!close)
   {

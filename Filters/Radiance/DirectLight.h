@@ -1,9 +1,11 @@
 // Light that reaches points, smoke cells and surface patches straight from the emitters.
 #pragma once
 
+#include "Medium.h"
 #include "Types.h"
 
 #include <optional>
+#include <vector>
 
 namespace smokevis
 {
@@ -28,6 +30,12 @@ public:
     std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
   /// Mean fluence over a smoke cell [lx].
   Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
+  /// Adds a light's mean fluence in the cells of a block [lx]. Ways from afar to neighbouring cells
+  /// are much the same: where a few of them tell the rest, they do.
+  /// @param sums of all cells of the smoke
+  /// @return the number of cells whose ways were told by others'
+  std::size_t AddBlockFluence(
+    std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
@@ -53,6 +61,8 @@ private:
     bool Clear = false;
     /// Where the plate is close and small against what the smoke varies over.
     std::optional<Ways> Close{};
+    /// Where the light is far: the mean extinction along all ways to it, if that is known [1/m].
+    std::optional<double> Extinction{};
   };
   /// What the way to a light does to its light.
   struct Path
@@ -76,8 +86,15 @@ private:
     const LightGroup& group, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
-  Spectrum BoxFluence(
-    std::size_t light, const Vec3& centre, const Vec3& size, int splits, bool clear) const;
+  Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
+  Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
+    bool clear, std::optional<double> extinction) const;
+  /// Mean extinction between a cell's centre and a light's [1/m].
+  double WayExtinction(const LightGroup& root, std::int64_t cell) const;
+  /// Mean extinction between the cells of a block and a light: linear between the corners of the
+  /// block; none where that does not hold.
+  std::optional<std::array<double, 8>> BlockWays(
+    const LightGroup& root, const Medium::Block& block) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 

@@ -8,10 +8,12 @@
 #include "VeilProbes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -32,6 +34,8 @@ constexpr double DriftShare = 1.0;
 /// A field is not scaled by more than this at once.
 constexpr double SmallestScale = 0.25;
 constexpr double LargestScale = 1e3;
+/// Cells along the edges of the blocks that share ways to the lights.
+constexpr int BlockEdge = 8;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -70,17 +74,21 @@ private:
   }
 
   /// Runs body(i) for all i below count, in steps between which progress is reported.
-  template <class Body> void ForAll(std::size_t count, double from, double to, Body&& body);
+  /// @param grain how many of them are worth a task
+  template <class Body>
+  void ForAll(std::size_t count, std::size_t grain, double from, double to, Body&& body);
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;
   Progress& Progress_;
   DirectLight Direct_;
   tbb::task_arena Arena_;
+  tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
 };
 
-template <class Body> void Solver::ForAll(std::size_t count, double from, double to, Body&& body)
+template <class Body>
+void Solver::ForAll(std::size_t count, std::size_t grain, double from, double to, Body&& body)
 {
   constexpr std::size_t steps = 50;
   const std::size_t chunk = std::max<std::size_t>(1, (count + steps - 1) / steps);
@@ -90,7 +98,7 @@ template <class Body> void Solver::ForAll(std::size_t count, double from, double
     this->Arena_.execute(
       [&]
       {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 64),
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
           [&](const tbb::blocked_range<std::size_t>& range)
           {
             for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop();
@@ -108,24 +116,31 @@ template <class Body> void Solver::ForAll(std::size_t count, double from, double
 void Solver::SolveCells()
 {
   const std::size_t lights = this->Scene_.Lights().Lights().size();
-  this->ForAll(lights > 0 ? this->Field_.Cells : 0, 0.0, 0.8 * DirectShare,
-    [this, lights](std::size_t cell)
+  if (lights == 0)
+  {
+    return;
+  }
+  const std::vector<Medium::Block> blocks = this->Scene_.Smoke().Blocks(BlockEdge);
+  std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
+  std::atomic<std::size_t> told{0};
+  this->ForAll(blocks.size(), 1, 0.0, 0.8 * DirectShare,
+    [&](std::size_t block)
     {
-      Spectrum sum{};
       for (std::size_t light = 0; light < lights; ++light)
       {
-        const Spectrum value = this->Direct_.CellFluence(light, static_cast<std::int64_t>(cell));
-        for (int band = 0; band < this->Field_.Bands; ++band)
-        {
-          sum[band] += value[band];
-        }
-      }
-      for (int band = 0; band < this->Field_.Bands; ++band)
-      {
-        this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
-          static_cast<float>(sum[band]);
+        told += this->Direct_.AddBlockFluence(light, blocks[block], sums);
       }
     });
+  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+  {
+    for (int band = 0; band < this->Field_.Bands; ++band)
+    {
+      this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
+        static_cast<float>(sums[cell][band]);
+    }
+  }
+  this->Say("optical depths between cells and lights not walked", static_cast<double>(told),
+    "neighbouring cells' ways tell them");
 }
 
 void Solver::SolvePatches()
@@ -157,7 +172,7 @@ void Solver::SolvePatches()
     first += mesh->CellReflectance.size();
   }
   const std::size_t lights = this->Scene_.Lights().Lights().size();
-  this->ForAll(lights > 0 ? this->Field_.Patches : 0, 0.8 * DirectShare, DirectShare,
+  this->ForAll(lights > 0 ? this->Field_.Patches : 0, 16, 0.8 * DirectShare, DirectShare,
     [&](std::size_t patch)
     {
       std::array<Spectrum, 2> sum{};
@@ -196,7 +211,10 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
     [&]
     {
       tbb::parallel_for(std::size_t{0}, batches.size(),
-        [&](std::size_t batch) { sweep.Run(batches[batch], Mix(key) + batch, this->Progress_); });
+        [&](std::size_t batch)
+        {
+          sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_);
+        });
     });
   this->CheckStop();
 }

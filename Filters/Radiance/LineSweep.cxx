@@ -60,7 +60,7 @@ void DrawLine(const Vec3& lower, const Vec3& upper, const std::array<double, 4>&
 
 BatchState::BatchState(std::size_t cells, std::size_t sides)
     : Fluence(cells, 0.0F), Illuminance(sides, 0.0F), FluenceSum(cells, 0.0F),
-      IlluminanceSum(sides, 0.0F), FluenceTally(cells), IlluminanceTally(sides)
+      IlluminanceSum(sides, 0.0F)
 {
 }
 
@@ -165,9 +165,8 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
-void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
-  const std::vector<float>& illuminanceReference, const Vec3& origin, const Vec3& direction,
-  double length, BatchState& tallies, Buffers& buffers) const
+void LineSweep::TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
+  const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
@@ -225,8 +224,8 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
   const auto arrive = [&](const Hit& hit, float radiance)
   {
     const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
-    tallies.IlluminanceTally[side] +=
-      radiance - illuminanceReference[side] * static_cast<float>(1.0 / glm::pi<double>());
+    tallies.Illuminance[side] += radiance - reference.Scale * reference.Illuminance[side] *
+                                              static_cast<float>(1.0 / glm::pi<double>());
   };
   float radiance = 0.0F;
   for (std::size_t part = 0; part <= crossings; ++part)
@@ -262,28 +261,24 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const std::int64_t cell = buffers.Cell[i];
-    tallies.FluenceTally[cell] +=
-      buffers.Integral[i] - isotropic * fluenceReference[cell] * buffers.Length[i];
+    tallies.Fluence[cell] += buffers.Integral[i] -
+                             isotropic * reference.Scale * reference.Fluence[cell] *
+                               buffers.Length[i];
   }
 }
 
-void LineSweep::Run(BatchState& state, std::uint64_t key, const Progress& progress) const
+void LineSweep::Run(
+  BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const
 {
   // The tallies measure by how much the radiance differs from that of a reference field: lengths
   // and hits have known expectations, so this leaves the mean as it is and takes their scatter
   // away. The reference must not know of this sweep's lines.
-  std::vector<float> fluenceReference = state.Fluence;
-  std::vector<float> illuminanceReference = state.Illuminance;
-  if (state.Counted > 0)
-  {
-    const float scale = 1.0F / static_cast<float>(state.Counted);
-    std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), fluenceReference.begin(),
-      [scale](float sum) { return scale * sum; });
-    std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
-      illuminanceReference.begin(), [scale](float sum) { return scale * sum; });
-  }
-  std::fill(state.FluenceTally.begin(), state.FluenceTally.end(), 0.0F);
-  std::fill(state.IlluminanceTally.begin(), state.IlluminanceTally.end(), 0.0F);
+  const bool counted = state.Counted > 0;
+  const Reference reference = {counted ? state.FluenceSum.data() : state.Fluence.data(),
+    counted ? state.IlluminanceSum.data() : state.Illuminance.data(),
+    counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F};
+  tallies.Fluence.assign(state.Fluence.size(), 0.0F);
+  tallies.Illuminance.assign(state.Illuminance.size(), 0.0F);
 
   const EvenPoints points(key);
   Buffers buffers;
@@ -297,8 +292,7 @@ void LineSweep::Run(BatchState& state, std::uint64_t key, const Progress& progre
     Vec3 direction;
     double length = 0.0;
     DrawLine(this->Lower_, this->Upper_, points.Point(line), origin, direction, length);
-    this->TraceLine(
-      state, fluenceReference, illuminanceReference, origin, direction, length, state, buffers);
+    this->TraceLine(state, reference, origin, direction, length, tallies, buffers);
   }
 
   // All directed lines through a convex body measure pi times its surface. Each line drawn serves
@@ -309,23 +303,21 @@ void LineSweep::Run(BatchState& state, std::uint64_t key, const Progress& progre
   const auto cellWeight = static_cast<float>(weight);
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
-    state.Fluence[cell] =
-      fluenceReference[cell] + cellWeight * this->InverseVolume_[cell] * state.FluenceTally[cell];
+    state.Fluence[cell] = reference.Scale * reference.Fluence[cell] +
+                          cellWeight * this->InverseVolume_[cell] * tallies.Fluence[cell];
+    state.FluenceSum[cell] += state.Fluence[cell];
   }
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
     const double area = this->Scene_.PatchArea(side / 2);
     if (area > 0.0)
     {
-      state.Illuminance[side] = illuminanceReference[side] +
-                                static_cast<float>(weight / area) * state.IlluminanceTally[side];
+      state.Illuminance[side] = reference.Scale * reference.Illuminance[side] +
+                                static_cast<float>(weight / area) * tallies.Illuminance[side];
     }
+    state.IlluminanceSum[side] += state.Illuminance[side];
   }
   ++state.Counted;
-  std::transform(state.FluenceSum.begin(), state.FluenceSum.end(), state.Fluence.begin(),
-    state.FluenceSum.begin(), std::plus<>());
-  std::transform(state.IlluminanceSum.begin(), state.IlluminanceSum.end(),
-    state.Illuminance.begin(), state.IlluminanceSum.begin(), std::plus<>());
 }
 
 double LineSweep::FirstSource() const

@@ -18,12 +18,16 @@ struct BatchState
   /// Sum of the estimates that count, one a sweep.
   std::vector<float> FluenceSum, IlluminanceSum;
   int Counted = 0;
-  /// Scratch of a sweep.
-  std::vector<float> FluenceTally, IlluminanceTally;
 
   BatchState(std::size_t cells, std::size_t sides);
   /// Forgets the sums, not the latest estimate.
   void Restart();
+};
+
+/// What a sweep adds up, by how much light differs from what was expected; one a thread.
+struct LineTallies
+{
+  std::vector<float> Fluence, Illuminance;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -43,7 +47,9 @@ public:
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
   /// is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
-  void Run(BatchState& state, std::uint64_t key, const Progress& progress) const;
+  /// @param tallies scratch
+  void Run(BatchState& state, LineTallies& tallies, std::uint64_t key,
+    const Progress& progress) const;
 
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
   /// again of direct light, and what flames and large lights emit.
@@ -53,10 +59,16 @@ public:
 
 private:
   struct Buffers;
+  /// A known field: values times a scale.
+  struct Reference
+  {
+    const float* Fluence;
+    const float* Illuminance;
+    float Scale;
+  };
 
-  void TraceLine(const BatchState& state, const std::vector<float>& fluenceReference,
-    const std::vector<float>& illuminanceReference, const Vec3& origin, const Vec3& direction,
-    double length, BatchState& tallies, Buffers& buffers) const;
+  void TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
+    const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 

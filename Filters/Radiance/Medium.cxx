@@ -212,6 +212,28 @@ Vec3 Medium::CellSize(std::int64_t cell) const
   return size;
 }
 
+std::vector<Medium::Block> Medium::Blocks(int edge) const
+{
+  std::vector<Block> blocks;
+  for (std::size_t grid = 0; grid < this->Grids_.size(); ++grid)
+  {
+    const std::array<int, 3>& size = this->Grids_[grid].Size;
+    for (int z = 0; z < size[2]; z += edge)
+    {
+      for (int y = 0; y < size[1]; y += edge)
+      {
+        for (int x = 0; x < size[0]; x += edge)
+        {
+          blocks.push_back({grid, {x, y, z},
+            {std::min(edge, size[0] - x), std::min(edge, size[1] - y),
+              std::min(edge, size[2] - z)}});
+        }
+      }
+    }
+  }
+  return blocks;
+}
+
 std::int64_t Medium::Locate(const Vec3& point) const
 {
   for (const int rank : this->Rank_)

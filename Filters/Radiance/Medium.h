@@ -61,6 +61,22 @@ public:
   /// may lie in another grid; -1 where there is none.
   std::int64_t Neighbour(std::int64_t cell, int axis, int side) const;
 
+  /// A box of cells of one grid, for work that neighbours share.
+  struct Block
+  {
+    std::size_t Grid = 0;
+    /// First cell and number of cells along each axis.
+    std::array<int, 3> First{}, Size{};
+  };
+  /// Blocks of at most `edge` cells along each axis that hold every cell once.
+  std::vector<Block> Blocks(int edge) const;
+  /// A cell of a block, counted from the block's first.
+  std::int64_t Cell(const Block& block, const std::array<int, 3>& place) const
+  {
+    return this->Grids_[block.Grid].Cell(
+      {block.First[0] + place[0], block.First[1] + place[1], block.First[2] + place[2]});
+  }
+
   const Vec3& Lower() const { return this->Lower_; }
   const Vec3& Upper() const { return this->Upper_; }
 
