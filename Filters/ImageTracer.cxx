@@ -156,7 +156,7 @@ private:
     lanes = Lanes();
     if (!hit.Found())
     {
-      return 0.0;
+      return this->View_.TheScene().Sky();
     }
     const Vec3 point = this->Camera_.Position + hit.Distance * ray;
     if (hit.Emitter)
