@@ -58,7 +58,7 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
       open.push_back(group.FirstChild + 1);
       continue;
     }
-    this->AddPlate(view, group.Centre, group.Radius, group.Normal, group.Exponent, group.Intensity);
+    this->AddPlate(view, group.Centre, group.Radius, group.Normal, group.Law, group.Intensity);
   }
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
   {
@@ -70,7 +70,7 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
         value *= lights.CellArea(cell);
       }
       this->AddPlate(view, lights.CellCentre(cell), std::sqrt(lights.CellArea(cell) / Pi),
-        lights.CellNormal(cell), lights.Cells()[cell].Exponent, intensity);
+        lights.CellNormal(cell), lights.CellLaw(cell), intensity);
     }
   }
   if (view.TheScene().Smoke().Emits())
@@ -81,7 +81,7 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
 
 //------------------------------------------------------------------------------
 void GlareSources::AddPlate(const View& view, const Vec3& place, double radius, const Vec3& normal,
-  double exponent, const Spectrum& intensity)
+  const EmissionLaw& law, const Spectrum& intensity)
 {
   const Scene& scene = view.TheScene();
   const Vec3 way = place - this->Eye_;
@@ -100,7 +100,7 @@ void GlareSources::AddPlate(const View& view, const Vec3& place, double radius, 
   // A disc on the axis, exact there and finite close by.
   const double square = distance * distance + radius * radius;
   const double illuminance =
-    Luminance(arriving, scene.Bands()) * std::pow(cosine, exponent + 1.0) / square;
+    Luminance(arriving, scene.Bands()) * cosine * law.Relative(-way / distance, cosine) / square;
   if (illuminance > 0.0)
   {
     this->Sources_.push_back(

@@ -62,7 +62,7 @@ private:
   };
 
   void AddPlate(const View& view, const Vec3& place, double radius, const Vec3& normal,
-    double exponent, const Spectrum& intensity);
+    const EmissionLaw& law, const Spectrum& intensity);
   void AddFlames(const View& view);
 
   Vec3 Eye_;
