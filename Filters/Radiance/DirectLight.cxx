@@ -284,10 +284,7 @@ void DirectLight::AddPoint(
     return;
   }
   double factor = path.Visible * cosine / square;
-  if (group.Exponent > 0.0)
-  {
-    factor *= std::pow(cosine, group.Exponent);
-  }
+  factor *= group.Law.Relative(-to / distance, cosine);
   if (receiver.Normal)
   {
     factor *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
@@ -336,10 +333,7 @@ void DirectLight::AddLeaf(
       {
         continue;
       }
-      if (leaf.Exponent > 0.0)
-      {
-        weight *= std::pow(cosine, leaf.Exponent);
-      }
+      weight *= leaf.Law.Relative(-to / distance, cosine);
       const double depth = few ? path.MeanExtinction * distance : this->Depth(receiver, target);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
@@ -450,7 +444,8 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
   const double distance = root.Distance(centre);
-  const bool splits = std::max({size.x, size.y, size.z}) > BoxRatio * distance;
+  const bool splits =
+    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
   return this->BoxFluence(
     light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt);
 }
@@ -477,7 +472,10 @@ std::optional<std::array<double, 8>> DirectLight::BlockWays(
   const Vec3 high = smoke.CellCentre(cornerCell(7));
   const double distance =
     glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
-  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance)
+  const Vec3 size = smoke.CellSize(cornerCell(0));
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
+      edge > 0.5 * BoxRatio * distance)
   {
     return std::nullopt;
   }
@@ -574,7 +572,7 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = std::max({size.x, size.y, size.z});
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
   if (splits > 0 && edge > BoxRatio * distance)
   {
     // A box wholly behind the plate gets nothing.
@@ -675,6 +673,7 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     return;
   }
+  size *= root.Law.Sharpness();
   const auto splitAll = [&]
   {
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),

@@ -18,6 +18,8 @@ namespace
 /// A light counts as near to a cell within so many cell edges of the cell: the
 /// fluence of its light is then too steep to be interpolated between cells.
 constexpr double NearEdges = 4.0;
+/// Sharpest law of emission of lights whose fluence is kept on lattices.
+constexpr double SmoothestLaw = 2.0;
 /// Most change of the logarithm of a fluence across a cell.
 constexpr double SteepestChange = 4.0;
 /// Smoke behind this optical depth adds less than single precision shows.
@@ -244,7 +246,9 @@ void View::Implementation::FindNearCells()
   this->NearFields.resize(reach.size());
   for (std::size_t light = 0; light < reach.size(); ++light)
   {
-    if (reach[light] > 0.0)
+    // Light that changes quickly with the angle would need finer lattices.
+    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    if (reach[light] > 0.0 && root.Law.Sharpness() <= SmoothestLaw)
     {
       this->NearFields[light] =
         std::make_unique<NearField>(this->TheScene, this->Direct, light, reach[light]);
@@ -428,8 +432,10 @@ double View::Implementation::NearLight(const NearCell& near, const Vec3& origin,
         const double distance = std::clamp(middle + width * tangent, from, to);
         const double step = GaussWeights[i] * (high - low) * width * (1.0 + tangent * tangent);
         const Vec3 point = origin + distance * direction;
-        const double fluence = near.Clear[index] ? this->NearFields[light]->Fluence(point, band)
-                                                 : this->Direct.Fluence(light, point)[band];
+        const double fluence =
+          near.Clear[index] && this->NearFields[light]
+            ? this->NearFields[light]->Fluence(point, band)
+            : this->Direct.Fluence(light, point, near.Clear[index])[band];
         sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
       }
     }
@@ -497,11 +503,12 @@ RayLight View::TraceVeil(
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
 {
   RayLight light = this->TraceVeil(origin, direction, 0.0, hit.Distance, band);
+  const double transmittance = std::exp(-light.OpticalDepth);
   if (!hit.Found())
   {
+    light.Surface = transmittance * this->Scene_->Sky();
     return light;
   }
-  const double transmittance = std::exp(-light.OpticalDepth);
   const Vec3 point = origin + hit.Distance * direction;
   const std::size_t patch = this->Scene_->Patch(hit);
   if (hit.Emitter)
@@ -552,8 +559,7 @@ double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, 
   if (side == 0)
   {
     const double cosine = std::max(0.0, glm::dot(towards, front));
-    luminance +=
-      cell.Luminance[band] * (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
+    luminance += cell.Luminance[band] * lights.CellLaw(emitter).Relative(towards, cosine);
   }
   return luminance;
 }
