@@ -133,6 +133,7 @@ Medium::Medium(std::vector<SmokeGrid> grids)
         largest = std::max(largest, nodes[i] - nodes[i - 1]);
       }
       grid.Fineness *= smallest;
+      this->LargestEdge_ = std::max(this->LargestEdge_, largest);
       if (largest <= smallest * 1.001)
       {
         grid.InverseStep[axis] = grid.Size[axis] / (nodes.back() - nodes.front());

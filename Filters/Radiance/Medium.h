@@ -77,6 +77,37 @@ public:
       {block.First[0] + place[0], block.First[1] + place[1], block.First[2] + place[2]});
   }
 
+  /// Calls visit(cell) for the cells of all grids that reach into a box.
+  template <class Visit> void ForCellsIn(const Vec3& low, const Vec3& high, Visit&& visit) const
+  {
+    for (const Grid& grid : this->Grids_)
+    {
+      if (glm::any(glm::lessThan(high, grid.Lower)) || glm::any(glm::greaterThan(low, grid.Upper)))
+      {
+        continue;
+      }
+      std::array<int, 3> first;
+      std::array<int, 3> last;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        first[axis] = grid.Index(axis, low[axis]);
+        last[axis] = grid.Index(axis, high[axis]);
+      }
+      for (int z = first[2]; z <= last[2]; ++z)
+      {
+        for (int y = first[1]; y <= last[1]; ++y)
+        {
+          for (int x = first[0]; x <= last[0]; ++x)
+          {
+            visit(grid.Cell({x, y, z}));
+          }
+        }
+      }
+    }
+  }
+  /// Longest edge of any cell [m].
+  double LargestEdge() const { return this->LargestEdge_; }
+
   const Vec3& Lower() const { return this->Lower_; }
   const Vec3& Upper() const { return this->Upper_; }
 
@@ -126,6 +157,7 @@ private:
   std::vector<float> Extinction_;
   std::vector<float> EmittedLuminance_;
   float MaximumExtinction_ = 0.0F;
+  double LargestEdge_ = 0.0;
   Vec3 Lower_{0.0};
   Vec3 Upper_{0.0};
 };

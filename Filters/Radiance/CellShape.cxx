@@ -1,0 +1,79 @@
+#include "CellShape.h"
+
+#include "OpenFaces.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Most change of the logarithm of a field across a cell.
+constexpr double SteepestChange = 4.0;
+
+} // namespace
+
+CellShape::CellShape(
+  const Scene& scene, const OpenFaces& open, const float* means, const Tells& tells)
+{
+  const Medium& smoke = scene.Smoke();
+  this->Slopes_.resize(smoke.Cells());
+  this->Lower_ = smoke.Lower();
+  const auto find = [&](std::int64_t cell)
+  {
+    const Vec3 centre = smoke.CellCentre(cell);
+    const Vec3 size = smoke.CellSize(cell);
+    double mean = 1.0;
+    double offset = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::array<double, 2> value = {means[cell], means[cell]};
+      std::array<double, 2> place = {centre[axis], centre[axis]};
+      for (int side = 0; side < 2; ++side)
+      {
+        if (!open.Open(cell, axis, side))
+        {
+          continue;
+        }
+        const std::int64_t other = smoke.Neighbour(cell, axis, side);
+        if (means[other] > 0.0F && (!tells || tells(cell, other)))
+        {
+          value[side] = means[other];
+          place[side] = smoke.CellCentre(other)[axis];
+        }
+      }
+      if (place[1] > place[0])
+      {
+        const double steepest = SteepestChange / size[axis];
+        const double slope =
+          std::clamp(std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
+        this->Slopes_[cell].Slope[axis] = static_cast<float>(slope);
+        offset -= static_cast<float>(slope) * (centre[axis] - this->Lower_[axis]);
+        const double half = 0.5 * slope * size[axis];
+        mean *= std::abs(half) < 1e-3 ? 1.0 + half * half / 6.0 : std::sinh(half) / half;
+      }
+    }
+    this->Slopes_[cell].Offset = static_cast<float>(offset - std::log(mean));
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      {
+        // Only scattering cells are asked for.
+        if (means[cell] > 0.0F && smoke.Extinction(static_cast<std::int64_t>(cell)) > 0.0F)
+        {
+          find(static_cast<std::int64_t>(cell));
+        }
+      }
+    });
+}
+
+} // namespace smokevis

@@ -1,0 +1,56 @@
+// How a field that is known by its cell means varies inside the cells.
+#pragma once
+
+#include "Types.h"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace smokevis
+{
+
+class OpenFaces;
+class Scene;
+
+/// Light falls off exponentially in smoke, so that the logarithm of a field is taken to vary
+/// linearly between the centres of neighbouring cells. The mean over a cell stays what it is.
+class CellShape
+{
+public:
+  /// Whether the second cell tells how the field varies in the first.
+  using Tells = std::function<bool(std::int64_t, std::int64_t)>;
+
+  /// A field that does not vary.
+  CellShape() = default;
+  /// @param means a value a cell
+  /// @param tells empty: every neighbour behind an open face does
+  CellShape(
+    const Scene& scene, const OpenFaces& open, const float* means, const Tells& tells = nullptr);
+
+  /// Value at a point of a cell over the mean there.
+  double Value(std::int64_t cell, const Vec3& point) const
+  {
+    if (this->Slopes_.empty())
+    {
+      return 1.0;
+    }
+    const Slope& slope = this->Slopes_[cell];
+    const Vec3 from = point - this->Lower_;
+    return std::exp(slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y +
+                    slope.Slope[2] * from.z);
+  }
+
+private:
+  struct Slope
+  {
+    /// Of the logarithm [1/m].
+    std::array<float, 3> Slope{};
+    /// Logarithm of the value over the mean, continued to the smoke's lower corner.
+    float Offset = 0.0F;
+  };
+  std::vector<Slope> Slopes_;
+  Vec3 Lower_{0.0};
+};
+
+} // namespace smokevis

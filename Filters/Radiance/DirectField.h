@@ -1,0 +1,78 @@
+// Direct fluence at any place in the smoke: from cell means where it is smooth, from the lights
+// themselves where they are near.
+#pragma once
+
+#include "CellShape.h"
+#include "DirectLight.h"
+#include "NearField.h"
+#include "OpenFaces.h"
+
+#include <memory>
+#include <vector>
+
+namespace smokevis
+{
+
+struct LightField;
+class Scene;
+
+/// Of every cell, a light within a few cell edges counts as near: its fluence is too steep to be
+/// interpolated between cells.
+class DirectField
+{
+public:
+  /// @param field holds the direct fluence of all cells
+  DirectField(const Scene& scene, const LightField& field);
+
+  const OpenFaces& Open() const { return this->Open_; }
+
+  /// Fluence at a point of a cell of the lights that are not near to it [lx].
+  double Smooth(std::int64_t cell, const Vec3& point, int band) const
+  {
+    const std::size_t index = band * this->Cells_ + cell;
+    return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
+                                      : 0.0;
+  }
+  bool Near(std::int64_t cell) const
+  {
+    return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
+  }
+  /// Mean, along a piece of a ray inside a cell, of the fluence of the lights near to it [lx].
+  double NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, int band) const;
+  /// Light of the near lights that such a piece scatters towards its beginning, before what lies
+  /// ahead of the piece dims it [cd/m2].
+  /// @param extinction of the cell in the band [1/m]
+  double NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, double extinction, int band) const;
+
+private:
+  struct NearLight
+  {
+    std::uint32_t Light = 0;
+    /// Whether the whole cell sees the light unhidden.
+    bool Clear = false;
+    /// Over the cell [lx].
+    Spectrum Mean{};
+  };
+  using NearCell = std::vector<NearLight>;
+
+  void FindNearCells();
+  void MeasureNearCell(std::int64_t cell, NearCell& near) const;
+  Spectrum LatticeMean(const NearField& near, std::int64_t cell, double distance) const;
+
+  const Scene& Scene_;
+  DirectLight Direct_;
+  OpenFaces Open_;
+  std::size_t Cells_;
+  /// Fluence of the lights that are not near [lx]: [band][cell].
+  std::vector<float> Means_;
+  std::vector<CellShape> Shapes_;
+  /// Of each cell, its place among NearCells_, or -1; empty: no light is near to any.
+  std::vector<std::int32_t> NearIndex_;
+  std::vector<NearCell> NearCells_;
+  /// Of each light that is near to a cell.
+  std::vector<std::unique_ptr<NearField>> NearFields_;
+};
+
+} // namespace smokevis

@@ -1,0 +1,68 @@
+#include "OpenFaces.h"
+
+#include "Scene.h"
+
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+OpenFaces::OpenFaces(const Scene& scene)
+{
+  const Medium& smoke = scene.Smoke();
+  const Geometry& shapes = scene.Shapes();
+  // Only cells that the box around a triangle touches, or whose neighbour's it does, can be parted
+  // from a neighbour.
+  std::vector<unsigned char> touched(smoke.Cells(), 0);
+  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
+  {
+    for (const auto& triangle : mesh->Triangles)
+    {
+      const Vec3& a = mesh->Points[triangle[0]];
+      const Vec3& b = mesh->Points[triangle[1]];
+      const Vec3& c = mesh->Points[triangle[2]];
+      const double gap = 4.0 * shapes.Tolerance();
+      smoke.ForCellsIn(glm::min(a, glm::min(b, c)) - gap, glm::max(a, glm::max(b, c)) + gap,
+        [&touched](std::int64_t cell) { touched[cell] = 1; });
+    }
+  }
+  this->Faces_.assign(smoke.Cells(), 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      {
+        // Only scattering cells are asked for.
+        if (smoke.Extinction(static_cast<std::int64_t>(cell)) == 0.0F)
+        {
+          continue;
+        }
+        const Vec3 centre = smoke.CellCentre(static_cast<std::int64_t>(cell));
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          for (int side = 0; side < 2; ++side)
+          {
+            const std::int64_t other = smoke.Neighbour(static_cast<std::int64_t>(cell), axis, side);
+            if (other < 0)
+            {
+              continue;
+            }
+            bool open = touched[cell] == 0 && touched[other] == 0;
+            if (!open)
+            {
+              Vec3 target = centre;
+              target[axis] = smoke.CellCentre(other)[axis];
+              const double length = std::abs(target[axis] - centre[axis]);
+              open = !shapes.Occluded(centre, (target - centre) / length, 0.0, length);
+            }
+            this->Faces_[cell] |= static_cast<unsigned char>(open ? 1 << (2 * axis + side) : 0);
+          }
+        }
+      }
+    });
+}
+
+} // namespace smokevis
