@@ -20,13 +20,12 @@ constexpr double SteepestChange = 4.0;
 
 } // namespace
 
-CellShape::CellShape(
-  const Scene& scene, const OpenFaces& open, const float* means, const Tells& tells)
+CellShape::CellShape(const Scene& scene, const OpenFaces& open, const Means& means)
 {
   const Medium& smoke = scene.Smoke();
   this->Slopes_.resize(smoke.Cells());
   this->Lower_ = smoke.Lower();
-  const auto find = [&](std::int64_t cell)
+  const auto find = [&](std::int64_t cell, double own)
   {
     const Vec3 centre = smoke.CellCentre(cell);
     const Vec3 size = smoke.CellSize(cell);
@@ -34,7 +33,7 @@ CellShape::CellShape(
     double offset = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      std::array<double, 2> value = {means[cell], means[cell]};
+      std::array<double, 2> value = {own, own};
       std::array<double, 2> place = {centre[axis], centre[axis]};
       for (int side = 0; side < 2; ++side)
       {
@@ -43,9 +42,10 @@ CellShape::CellShape(
           continue;
         }
         const std::int64_t other = smoke.Neighbour(cell, axis, side);
-        if (means[other] > 0.0F && (!tells || tells(cell, other)))
+        const float there = means(cell, other);
+        if (there > 0.0F)
         {
-          value[side] = means[other];
+          value[side] = there;
           place[side] = smoke.CellCentre(other)[axis];
         }
       }
@@ -67,10 +67,12 @@ CellShape::CellShape(
     {
       for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
       {
+        const auto here = static_cast<std::int64_t>(cell);
+        const float own = means(here, here);
         // Only scattering cells are asked for.
-        if (means[cell] > 0.0F && smoke.Extinction(static_cast<std::int64_t>(cell)) > 0.0F)
+        if (own > 0.0F && smoke.Extinction(here) > 0.0F)
         {
-          find(static_cast<std::int64_t>(cell));
+          find(here, own);
         }
       }
     });

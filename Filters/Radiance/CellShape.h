@@ -18,15 +18,12 @@ class Scene;
 class CellShape
 {
 public:
-  /// Whether the second cell tells how the field varies in the first.
-  using Tells = std::function<bool(std::int64_t, std::int64_t)>;
+  /// Mean of the field in the second cell, as the first, its neighbour, sees it; 0: not known.
+  using Means = std::function<float(std::int64_t, std::int64_t)>;
 
   /// A field that does not vary.
   CellShape() = default;
-  /// @param means a value a cell
-  /// @param tells empty: every neighbour behind an open face does
-  CellShape(
-    const Scene& scene, const OpenFaces& open, const float* means, const Tells& tells = nullptr);
+  CellShape(const Scene& scene, const OpenFaces& open, const Means& means);
 
   /// Value at a point of a cell over the mean there.
   double Value(std::int64_t cell, const Vec3& point) const
@@ -37,8 +34,8 @@ public:
     }
     const Slope& slope = this->Slopes_[cell];
     const Vec3 from = point - this->Lower_;
-    return std::exp(slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y +
-                    slope.Slope[2] * from.z);
+    return std::exp(
+      slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y + slope.Slope[2] * from.z);
   }
 
 private:

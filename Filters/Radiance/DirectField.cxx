@@ -18,6 +18,8 @@ namespace
 
 /// A light counts as near to a cell within so many cell edges of the cell.
 constexpr double NearEdges = 4.0;
+/// Closer than this, a cell's mean is not found from a few points.
+constexpr double CloseEdges = 2.0;
 /// Sharpest law of emission of lights whose fluence is kept on lattices.
 constexpr double SmoothestLaw = 2.0;
 /// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
@@ -74,8 +76,7 @@ struct Equiangular
     {
       const double tangent = std::tan(low + (high - low) * rule.Nodes[i]);
       const double distance = std::clamp(this->Middle + this->Width * tangent, from, to);
-      visit(
-        distance, rule.Weights[i] * (high - low) * this->Width * (1.0 + tangent * tangent));
+      visit(distance, rule.Weights[i] * (high - low) * this->Width * (1.0 + tangent * tangent));
     }
   }
 };
@@ -114,31 +115,36 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 } // namespace
 
 DirectField::DirectField(const Scene& scene, const LightField& field)
-    : Scene_(scene), Direct_(scene), Open_(scene), Cells_(field.Cells),
-      Means_(field.DirectFluence), Shapes_(field.Bands)
+    : Scene_(scene), Direct_(scene), Open_(scene), Cells_(field.Cells), Means_(field.DirectFluence),
+      Shapes_(field.Bands)
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
   {
     return;
   }
   this->FindNearCells();
-  const CellShape::Tells tells = [this](std::int64_t cell, std::int64_t other)
+  const auto alike = [this](std::int64_t cell, std::int64_t other)
   {
-    // What is left without near lights does not go on where other lights are near.
-    const std::int32_t a = this->NearIndex_[cell];
-    const std::int32_t b = this->NearIndex_[other];
-    if (a < 0 || b < 0)
+    const std::int32_t index = this->NearIndex_[other];
+    if (index < 0)
     {
-      return a == b;
+      return false;
     }
-    return std::equal(this->NearCells_[a].begin(), this->NearCells_[a].end(),
-      this->NearCells_[b].begin(), this->NearCells_[b].end(),
+    const std::vector<NearLight>& first = this->NearCells_[this->NearIndex_[cell]].Lights;
+    const std::vector<NearLight>& second = this->NearCells_[index].Lights;
+    return std::equal(first.begin(), first.end(), second.begin(), second.end(),
       [](const NearLight& one, const NearLight& two) { return one.Light == two.Light; });
   };
   for (int band = 0; band < field.Bands; ++band)
   {
-    this->Shapes_[band] = CellShape(scene, this->Open_, this->Means_.data() + band * this->Cells_,
-      this->NearCells_.empty() ? nullptr : tells);
+    const float* all = field.DirectFluence.data() + field.CellIndex(band, 0);
+    const float* others = this->Means_.data() + field.CellIndex(band, 0);
+    this->Shapes_[band] = CellShape(scene, this->Open_,
+      [&](std::int64_t cell, std::int64_t other)
+      {
+        // Without its near lights, a cell is like those that lack the same.
+        return !this->Near(cell) ? all[other] : alike(cell, other) ? others[other] : 0.0F;
+      });
   }
 }
 
@@ -181,7 +187,7 @@ void DirectField::FindNearCells()
           this->NearCells_.emplace_back();
           cells.push_back(cell);
         }
-        this->NearCells_[this->NearIndex_[cell]].push_back(
+        this->NearCells_[this->NearIndex_[cell]].Lights.push_back(
           {static_cast<std::uint32_t>(light), false, {}});
         reach[light] = std::max(reach[light], distance + 0.5 * glm::length(size));
       });
@@ -198,56 +204,85 @@ void DirectField::FindNearCells()
     }
   }
   tbb::parallel_for(std::size_t{0}, cells.size(),
-    [&](std::size_t i) { this->MeasureNearCell(cells[i], this->NearCells_[i]); });
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+    [&](std::size_t i)
     {
-      float& mean = this->Means_[band * this->Cells_ + cells[i]];
-      double near = 0.0;
-      for (const NearLight& light : this->NearCells_[i])
+      const Spectrum others = this->MeasureNearCell(cells[i], this->NearCells_[i]);
+      for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
       {
-        near += light.Mean[band];
+        this->Means_[band * this->Cells_ + cells[i]] = static_cast<float>(others[band]);
       }
-      mean = std::max(0.0F, mean - static_cast<float>(near));
-    }
-  }
+    });
 }
 
-void DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
+Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  for (NearLight& light : near)
-  {
-    const LightGroup& root = lights.Groups()[lights.Lights()[light.Light]];
-    light.Clear = this->Direct_.Clear(light.Light, cell);
-    light.Mean =
-      light.Clear && this->NearFields_[light.Light]
-        ? this->LatticeMean(*this->NearFields_[light.Light], cell,
-            root.Distance(this->Scene_.Smoke().CellCentre(cell)))
-        : this->Direct_.CellFluence(light.Light, cell);
-  }
-}
-
-Spectrum DirectField::LatticeMean(
-  const NearField& near, std::int64_t cell, double distance) const
-{
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
-  const double edge = std::max({size.x, size.y, size.z});
-  const int count = edge < 0.5 * distance ? 2 : edge < distance ? 4 : 6;
-  Spectrum mean{};
-  for (int point = 0; point < count * count * count; ++point)
+  double distance = 1e300;
+  for (NearLight& light : near.Lights)
   {
-    const Vec3 share((point % count + 0.5) / count, (point / count % count + 0.5) / count,
-      (point / (count * count) + 0.5) / count);
-    for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+    light.Clear = this->Direct_.Clear(light.Light, cell);
+    if (!light.Clear || !this->NearFields_[light.Light])
     {
-      mean[band] += near.Fluence(centre + (share - 0.5) * size, static_cast<int>(band)) /
-                    (count * count * count);
+      light.Mean = this->Direct_.CellFluence(light.Light, cell);
+    }
+    distance = std::min(distance, lights.Groups()[lights.Lights()[light.Light]].Distance(centre));
+  }
+  near.Close = distance < CloseEdges * std::max({size.x, size.y, size.z});
+  if (near.Lights.size() == lights.Lights().size())
+  {
+    return {};
+  }
+  if (near.Close)
+  {
+    return this->OthersFluence(cell, near);
+  }
+  // Eight Gauss points know the near lights' mean to a percent, and take it from that of all.
+  Spectrum others{};
+  for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+  {
+    others[band] = this->Means_[band * this->Cells_ + cell];
+  }
+  for (const NearLight& light : near.Lights)
+  {
+    for (int point = 0; point < 8; ++point)
+    {
+      const Vec3 share(TwoPoints.Nodes[point & 1], TwoPoints.Nodes[point >> 1 & 1],
+        TwoPoints.Nodes[point >> 2 & 1]);
+      const Spectrum value =
+        this->Direct_.Fluence(light.Light, centre + (share - 0.5) * size, light.Clear);
+      for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+      {
+        others[band] -= 0.125 * value[band];
+      }
     }
   }
-  return mean;
+  for (double& value : others)
+  {
+    value = std::max(0.0, value);
+  }
+  return others;
+}
+
+Spectrum DirectField::OthersFluence(std::int64_t cell, const NearCell& near) const
+{
+  Spectrum sum{};
+  auto skip = near.Lights.begin();
+  for (std::size_t light = 0; light < this->Scene_.Lights().Lights().size(); ++light)
+  {
+    if (skip != near.Lights.end() && skip->Light == light)
+    {
+      ++skip;
+      continue;
+    }
+    const Spectrum value = this->Direct_.CellFluence(light, cell);
+    for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+    {
+      sum[band] += value[band];
+    }
+  }
+  return sum;
 }
 
 double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
@@ -255,7 +290,7 @@ double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]])
+  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]].Lights)
   {
     const std::unique_ptr<NearField>& field = this->NearFields_[near.Light];
     if (!near.Clear || !field)
@@ -264,8 +299,7 @@ double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& 
       sum += near.Mean[band];
       continue;
     }
-    const Equiangular places(
-      lights.Groups()[lights.Lights()[near.Light]], origin, direction);
+    const Equiangular places(lights.Groups()[lights.Lights()[near.Light]], origin, direction);
     places.ForEach(begin, end, 0.0,
       [&](double distance, double step)
       { sum += step / (end - begin) * field->Fluence(origin + distance * direction, band); });
@@ -278,7 +312,7 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]])
+  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]].Lights)
   {
     const LightGroup& root = lights.Groups()[lights.Lights()[near.Light]];
     const std::unique_ptr<NearField>& field = this->NearFields_[near.Light];
@@ -291,9 +325,9 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
         [&](double distance, double step)
         {
           const Vec3 point = origin + distance * direction;
-          const double fluence =
-            near.Clear && field ? field->Fluence(point, band)
-                                : this->Direct_.Fluence(near.Light, point, near.Clear)[band];
+          const double fluence = near.Clear && field
+                                   ? field->Fluence(point, band)
+                                   : this->Direct_.Fluence(near.Light, point, near.Clear)[band];
           sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
         });
     }

@@ -37,6 +37,11 @@ public:
   {
     return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
   }
+  /// Whether a light is so close to a cell that its fluence varies much inside it.
+  bool Close(std::int64_t cell) const
+  {
+    return this->Near(cell) && this->NearCells_[this->NearIndex_[cell]].Close;
+  }
   /// Mean, along a piece of a ray inside a cell, of the fluence of the lights near to it [lx].
   double NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, int band) const;
@@ -52,14 +57,20 @@ private:
     std::uint32_t Light = 0;
     /// Whether the whole cell sees the light unhidden.
     bool Clear = false;
-    /// Over the cell [lx].
+    /// Over the cell, where lines need it: where there are shadows or no lattice [lx].
     Spectrum Mean{};
   };
-  using NearCell = std::vector<NearLight>;
+  struct NearCell
+  {
+    std::vector<NearLight> Lights;
+    bool Close = false;
+  };
 
   void FindNearCells();
-  void MeasureNearCell(std::int64_t cell, NearCell& near) const;
-  Spectrum LatticeMean(const NearField& near, std::int64_t cell, double distance) const;
+  /// Returns what the lights that are not near leave of the direct fluence in a cell.
+  Spectrum MeasureNearCell(std::int64_t cell, NearCell& near) const;
+  /// Fluence of the lights that are not in the list.
+  Spectrum OthersFluence(std::int64_t cell, const NearCell& near) const;
 
   const Scene& Scene_;
   DirectLight Direct_;

@@ -89,6 +89,10 @@ private:
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
   Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
     bool clear, std::optional<double> extinction) const;
+  /// Largest optical depth along an edge of a box, of any band.
+  double BoxDepth(const Vec3& centre, const Vec3& size) const;
+  Spectrum GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size, bool clear,
+    std::optional<double> known) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
   /// Mean extinction between the cells of a block and a light: linear between the corners of the

@@ -106,8 +106,8 @@ struct Gathering
 void GatherAll(const RTCFilterFunctionNArguments* arguments)
 {
   const auto* gathering = reinterpret_cast<const Gathering*>(arguments->context);
-  gathering->Met->emplace_back(RTCHitN_primID(arguments->hit, arguments->N, 0),
-    RTCRayN_tfar(arguments->ray, arguments->N, 0));
+  gathering->Met->emplace_back(
+    RTCHitN_primID(arguments->hit, arguments->N, 0), RTCRayN_tfar(arguments->ray, arguments->N, 0));
   // Not taken, so that the search goes on behind it.
   arguments->valid[0] = 0;
 }
@@ -160,8 +160,7 @@ struct Geometry::Implementation
     rtcCommitGeometry(geometry);
     shapes.Tree.reset(rtcNewScene(this->Device.get()));
     rtcSetSceneFlags(shapes.Tree.get(),
-      static_cast<RTCSceneFlags>(
-        RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcAttachGeometry(shapes.Tree.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(shapes.Tree.get());

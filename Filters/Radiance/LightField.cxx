@@ -1,6 +1,6 @@
 #include "LightField.h"
 
-#include "DirectLight.h"
+#include "DirectField.h"
 #include "Errors.h"
 #include "LineSweep.h"
 #include "Sampler.h"
@@ -64,6 +64,7 @@ private:
   int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
+  const DirectField& Inside();
   void CheckStop() const
   {
     if (this->Progress_.ShouldStop())
@@ -88,6 +89,8 @@ private:
   tbb::task_arena Arena_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
+  /// Made when a band needs it, once the direct fluence is known.
+  std::unique_ptr<DirectField> Inside_;
 };
 
 template <class Body>
@@ -215,9 +218,7 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
     {
       tbb::parallel_for(std::size_t{0}, batches.size(),
         [&](std::size_t batch)
-        {
-          sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_);
-        });
+        { sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_); });
     });
   this->CheckStop();
 }
@@ -280,7 +281,7 @@ int Solver::Settle(
       }
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
-    BlockMeans now(batches, this->Field_, band);
+    BlockMeans now(batches, this->Scene_, this->Field_, band);
     if (first > 0 &&
         now.DriftSince(earlier, this->Options_.Tolerance) < DriftShare * this->Options_.Tolerance)
     {
@@ -298,6 +299,16 @@ int Solver::Settle(
     }
     earlier = std::move(now);
   }
+}
+
+const DirectField& Solver::Inside()
+{
+  if (!this->Inside_)
+  {
+    this->Arena_.execute(
+      [this] { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_); });
+  }
+  return *this->Inside_;
 }
 
 void Solver::SolveMultiple(int band)
@@ -323,7 +334,7 @@ void Solver::SolveMultiple(int band)
       "albedo or extinction is 0 and no surface reflects");
     return;
   }
-  const LineSweep sweep(this->Scene_, this->Field_, band);
+  const LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band);
   if (!(sweep.FirstSource() > 0.0))
   {
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),

@@ -1,5 +1,6 @@
 #include "LineSweep.h"
 
+#include "DirectField.h"
 #include "Sampler.h"
 
 #include <algorithm>
@@ -18,6 +19,11 @@ namespace
 constexpr double CrossingsPerSweep = 1.5;
 constexpr std::size_t FewestLines = 512;
 constexpr double MostLinesForPatches = 20000.0;
+/// Optical depth across a cell below which its source is flat enough, that of the pieces that
+/// thicker ones are cut into, and most pieces of one.
+constexpr double FlatDepth = 0.4;
+constexpr double PieceDepth = 0.5;
+constexpr int MostParts = 8;
 
 /// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface
 /// with a cosine-distributed direction.
@@ -76,17 +82,20 @@ struct LineSweep::Buffers
 {
   std::vector<Crossing> Crossings;
   std::vector<Segment> Segments;
-  /// Of each piece of the line: cell, length, source luminance, exp(-tau), (1 - exp(-tau)) / tau.
+  /// Of each piece of the line: cell, length, direct fluence, source luminance, exp(-tau),
+  /// (1 - exp(-tau)) / tau.
   std::vector<std::int64_t> Cell;
-  std::vector<float> Length, Source, Transmittance, Escape;
+  std::vector<float> Length, Direct, Source, Transmittance, Escape;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
   /// Sum of both directions' path integrals.
   std::vector<float> Integral;
 };
 
-LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
-    : Scene_(scene), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
+LineSweep::LineSweep(
+  const Scene& scene, const LightField& field, const DirectField& direct, int band)
+    : Scene_(scene), Direct_(direct),
+      DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>())))
 {
@@ -94,6 +103,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
   this->Extinction_.resize(cells);
+  this->Varies_.resize(cells);
   double boundary = 0.0;
   double volume = 0.0;
   for (std::size_t cell = 0; cell < cells; ++cell)
@@ -103,6 +113,10 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
+    const bool near = direct.Near(static_cast<std::int64_t>(cell));
+    const bool thick = this->Extinction_[cell] * std::max({size.x, size.y, size.z}) > FlatDepth;
+    this->Varies_[cell] = this->DirectFluence_[cell] > 0.0F && this->Extinction_[cell] > 0.0F &&
+                          (near ? thick || direct.Close(static_cast<std::int64_t>(cell)) : thick);
     volume += own;
     boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   }
@@ -175,6 +189,35 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
+void LineSweep::AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
+  double end, Buffers& buffers) const
+{
+  const double length = end - begin;
+  if (!this->Varies_[cell])
+  {
+    buffers.Cell.push_back(cell);
+    buffers.Length.push_back(static_cast<float>(length));
+    buffers.Direct.push_back(this->DirectFluence_[cell]);
+    return;
+  }
+  // Thick pieces are cut: the source is flat in each.
+  const int parts = std::clamp(
+    static_cast<int>(std::ceil(this->Extinction_[cell] * length / PieceDepth)), 1, MostParts);
+  for (int part = 0; part < parts; ++part)
+  {
+    const double from = begin + length * part / parts;
+    const double to = begin + length * (part + 1) / parts;
+    double direct = this->Direct_.Smooth(cell, origin + 0.5 * (from + to) * direction, this->Band_);
+    if (this->Direct_.Near(cell))
+    {
+      direct += this->Direct_.NearMean(cell, origin, direction, from, to, this->Band_);
+    }
+    buffers.Cell.push_back(cell);
+    buffers.Length.push_back(static_cast<float>(to - from));
+    buffers.Direct.push_back(static_cast<float>(direct));
+  }
+}
+
 void LineSweep::TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
   const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const
 {
@@ -183,6 +226,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   const std::size_t crossings = buffers.Crossings.size();
   buffers.Cell.clear();
   buffers.Length.clear();
+  buffers.Direct.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
   std::size_t crossing = 0;
@@ -202,13 +246,11 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance < segment.End)
     {
       const double middle = buffers.Crossings[crossing].Arrive.Distance;
-      buffers.Cell.push_back(segment.Cell);
-      buffers.Length.push_back(static_cast<float>(middle - begin));
+      this->AddPiece(origin, direction, segment.Cell, begin, middle, buffers);
       begin = middle;
       closeUntil(middle);
     }
-    buffers.Cell.push_back(segment.Cell);
-    buffers.Length.push_back(static_cast<float>(segment.End - begin));
+    this->AddPiece(origin, direction, segment.Cell, begin, segment.End, buffers);
   }
   closeUntil(std::numeric_limits<double>::infinity());
   const std::size_t pieces = buffers.Cell.size();
@@ -221,7 +263,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const std::int64_t cell = buffers.Cell[i];
-    buffers.Source[i] = this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) +
+    buffers.Source[i] = this->Scatter_ * (buffers.Direct[i] + state.Fluence[cell]) +
                         (this->Emission_.empty() ? 0.0F : this->Emission_[cell]);
     const float depth = this->Extinction_[cell] * buffers.Length[i];
     const float transmittance = std::exp(-depth);
@@ -272,9 +314,8 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const std::int64_t cell = buffers.Cell[i];
-    tallies.Fluence[cell] += buffers.Integral[i] -
-                             isotropic * reference.Scale * reference.Fluence[cell] *
-                               buffers.Length[i];
+    tallies.Fluence[cell] += buffers.Integral[i] - isotropic * reference.Scale *
+                                                     reference.Fluence[cell] * buffers.Length[i];
   }
 }
 

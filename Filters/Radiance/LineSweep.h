@@ -10,6 +10,8 @@
 namespace smokevis
 {
 
+class DirectField;
+
 /// What one batch knows of the light field of one band; indices as in LightField, without the band.
 struct BatchState
 {
@@ -39,7 +41,8 @@ class LineSweep
 {
 public:
   /// @param field holds the direct light of all cells and patches
-  LineSweep(const Scene& scene, const LightField& field, int band);
+  /// @param direct the same fluence inside the cells; must outlive the sweep
+  LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band);
 
   /// Lines that cross each cell about 1.5 times.
   std::size_t Lines() const { return this->Lines_; }
@@ -48,8 +51,8 @@ public:
   /// is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
   /// @param tallies scratch
-  void Run(BatchState& state, LineTallies& tallies, std::uint64_t key,
-    const Progress& progress) const;
+  void Run(
+    BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const;
 
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
   /// again of direct light, and what flames, large lights and the sky emit.
@@ -69,15 +72,21 @@ private:
 
   void TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
     const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const;
+  /// Adds the pieces that a piece of a line is cut into, with the direct fluence in each.
+  void AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
+    double end, Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
   const Scene& Scene_;
+  const DirectField& Direct_;
   const float* DirectFluence_;
   const float* DirectIlluminance_;
   int Band_;
   /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
   float Scatter_;
+  /// Whether direct light varies inside a cell by more than a flat source may.
+  std::vector<bool> Varies_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
   std::vector<float> Extinction_;

@@ -159,6 +159,9 @@ Medium::Medium(std::vector<SmokeGrid> grids)
   }
   this->MaximumExtinction_ = *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
 
+  const float least = *std::min_element(this->Extinction_.begin(), this->Extinction_.end());
+  this->Even_ = this->Grids_.size() == 1 && least == this->MaximumExtinction_;
+
   this->Rank_.resize(this->Grids_.size());
   std::iota(this->Rank_.begin(), this->Rank_.end(), 0);
   std::stable_sort(this->Rank_.begin(), this->Rank_.end(),
@@ -366,6 +369,27 @@ void Medium::WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& directio
   }
 }
 
+bool Medium::Grid::Clip(
+  const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin, double& end) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (direction[axis] == 0.0)
+    {
+      if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
+      {
+        return false;
+      }
+      continue;
+    }
+    const double low = (this->Lower[axis] - origin[axis]) * inverse[axis];
+    const double high = (this->Upper[axis] - origin[axis]) * inverse[axis];
+    begin = std::max(begin, std::min(low, high));
+    end = std::min(end, std::max(low, high));
+  }
+  return end > begin;
+}
+
 template <class Visit>
 void Medium::ForEachPiece(
   const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const
@@ -383,22 +407,7 @@ void Medium::ForEachPiece(
     const Grid& grid = this->Grids_[this->Rank_[rank]];
     double enter = begin;
     double leave = end;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (direction[axis] == 0.0)
-      {
-        if (origin[axis] < grid.Lower[axis] || origin[axis] > grid.Upper[axis])
-        {
-          leave = -Infinity;
-        }
-        continue;
-      }
-      const double low = (grid.Lower[axis] - origin[axis]) * inverse[axis];
-      const double high = (grid.Upper[axis] - origin[axis]) * inverse[axis];
-      enter = std::max(enter, std::min(low, high));
-      leave = std::min(leave, std::max(low, high));
-    }
-    if (leave > enter)
+    if (grid.Clip(origin, direction, inverse, enter, leave))
     {
       intervals.push_back({enter, leave, static_cast<int>(rank)});
     }
@@ -469,6 +478,12 @@ void Medium::Walk(const Vec3& origin, const Vec3& direction, double begin, doubl
 double Medium::OpticalDepth(
   const Vec3& origin, const Vec3& direction, double begin, double end) const
 {
+  if (this->Even_)
+  {
+    return this->Grids_[0].Clip(origin, direction, 1.0 / direction, begin, end)
+             ? this->MaximumExtinction_ * (end - begin)
+             : 0.0;
+  }
   double depth = 0.0;
   this->ForEachPiece(origin, direction, begin, end,
     [&](std::int64_t cell, double from, double to)

@@ -139,6 +139,9 @@ private:
              this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
     }
     bool Contains(const Vec3& point) const;
+    /// Cuts a piece of a ray to what lies inside; whether anything is left.
+    bool Clip(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin,
+      double& end) const;
   };
 
   template <class Visit>
@@ -154,6 +157,8 @@ private:
   /// Indices of the grids, finest first.
   std::vector<int> Rank_;
   bool Overlap_ = false;
+  /// One grid of one extinction: optical depths need no walk.
+  bool Even_ = false;
   std::vector<float> Extinction_;
   std::vector<float> EmittedLuminance_;
   float MaximumExtinction_ = 0.0F;

@@ -56,8 +56,7 @@ struct NearField::Level
   }
 };
 
-NearField::NearField(
-  const Scene& scene, const DirectLight& direct, std::size_t light, double reach)
+NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach)
     : Scene_(scene), Direct_(direct), Light_(light)
 {
   const EmitterSet& lights = scene.Lights();
@@ -103,9 +102,9 @@ NearField::NearField(
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;
     }
-    level->Values = std::vector<std::atomic<float>>(static_cast<std::size_t>(level->Count[0]) *
-                                                    level->Count[1] * level->Count[2] *
-                                                    scene.Bands());
+    level->Values =
+      std::vector<std::atomic<float>>(static_cast<std::size_t>(level->Count[0]) * level->Count[1] *
+                                      level->Count[2] * scene.Bands());
     for (std::atomic<float>& value : level->Values)
     {
       value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
@@ -128,8 +127,8 @@ std::size_t NearField::Nodes() const
 Vec3 NearField::ToPlate(const Vec3& point) const
 {
   const Vec3 from = point - this->Centre_;
-  return {glm::dot(from, this->Axes_[0]), glm::dot(from, this->Axes_[1]),
-    glm::dot(from, this->Axes_[2])};
+  return {
+    glm::dot(from, this->Axes_[0]), glm::dot(from, this->Axes_[1]), glm::dot(from, this->Axes_[2])};
 }
 
 Vec3 NearField::FromPlate(const Vec3& place) const

@@ -6,6 +6,7 @@
 #include "Medium.h"
 #include "Types.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace smokevis
@@ -43,6 +44,12 @@ public:
   double Albedo() const { return this->Description_.Albedo; }
   double Sky() const { return this->Description_.Sky; }
   double ExtinctionScale(int band) const { return this->Description_.ExtinctionScale[band]; }
+  /// Of the band that the smoke dims most.
+  double LargestScale() const
+  {
+    const auto& scale = this->Description_.ExtinctionScale;
+    return *std::max_element(scale.begin(), scale.begin() + this->Description_.Bands);
+  }
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }

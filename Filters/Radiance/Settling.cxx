@@ -39,39 +39,59 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 } // namespace
 
-BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const LightField& field, int band)
+BlockMeans::BlockMeans(
+  const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
 {
-  this->Add(
-    batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0));
+  // Light counts by the power that is sent on of it [lm].
+  const Medium& smoke = scene.Smoke();
+  std::vector<float> weights(field.Cells);
+  for (std::size_t cell = 0; cell < field.Cells; ++cell)
+  {
+    const Vec3 size = smoke.CellSize(static_cast<std::int64_t>(cell));
+    weights[cell] =
+      static_cast<float>(scene.Albedo() * smoke.Extinction(static_cast<std::int64_t>(cell)) *
+                         size.x * size.y * size.z);
+  }
+  this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
+    weights);
+  weights.resize(2 * field.Patches);
+  for (std::size_t side = 0; side < weights.size(); ++side)
+  {
+    weights[side] =
+      static_cast<float>(scene.PatchArea(side / 2) * scene.PatchReflectance(side / 2)[band]);
+  }
   this->Add(batches, &BatchState::IlluminanceSum,
-    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0));
+    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), weights);
+  double all = 0.0;
+  for (const Block& block : this->Blocks_)
+  {
+    all += block.Direct + MeanOf(block.Multiple);
+  }
+  for (Block& block : this->Blocks_)
+  {
+    block.Direct += DarkShare * all / static_cast<double>(this->Blocks_.size());
+  }
 }
 
-void BlockMeans::Add(
-  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, const float* direct)
+void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
+  const float* direct, const std::vector<float>& weights)
 {
-  const std::size_t count = (batches.front().*sums).size();
+  const std::size_t count = weights.size();
   const std::size_t parts = std::min(MostBlocks, count);
-  const std::size_t first = this->Blocks_.size();
-  double mean = 0.0;
   for (std::size_t part = 0; part < parts; ++part)
   {
     Block block;
     block.Multiple.assign(batches.size(), 0.0);
     for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i)
     {
-      block.Direct += direct[i];
+      block.Direct += weights[i] * direct[i];
       for (std::size_t batch = 0; batch < batches.size(); ++batch)
       {
-        block.Multiple[batch] += (batches[batch].*sums)[i] / std::max(1, batches[batch].Counted);
+        block.Multiple[batch] +=
+          weights[i] * (batches[batch].*sums)[i] / std::max(1, batches[batch].Counted);
       }
     }
-    mean += (block.Direct + MeanOf(block.Multiple)) / static_cast<double>(parts);
     this->Blocks_.push_back(std::move(block));
-  }
-  for (std::size_t block = first; block < this->Blocks_.size(); ++block)
-  {
-    this->Blocks_[block].Direct += DarkShare * mean;
   }
 }
 

@@ -8,7 +8,7 @@
 namespace smokevis
 {
 
-/// Means of a light field over blocks of its cells and patches, a value a batch. Comparing those of
+/// Power that blocks of cells and of patches send on [lm], a value a batch. Comparing those of
 /// two windows of sweeps tells drift from noise, since the noise shows in the spread of the
 /// batches.
 class BlockMeans
@@ -16,7 +16,8 @@ class BlockMeans
 public:
   BlockMeans() = default;
   /// From the running means of the batches; the direct light of the band is what it adds to.
-  BlockMeans(const std::vector<BatchState>& batches, const LightField& field, int band);
+  BlockMeans(
+    const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band);
 
   /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window
   /// to this one over all light of the block (or over a floor where a block lies in the dark),
@@ -27,15 +28,17 @@ public:
 private:
   struct Block
   {
+    /// Of direct light, and a floor.
     double Direct = 0.0;
     /// A value a batch.
     std::vector<double> Multiple;
   };
 
   void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
-    const float* direct);
+    const float* direct, const std::vector<float>& weights);
 
-  /// Of the fluence, then of the illuminance; all blocks of one kind hold about as many values.
+  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches; all blocks
+  /// of one kind span about as many values.
   std::vector<Block> Blocks_;
 };
 

@@ -55,7 +55,7 @@ Lanes RayLight::TotalLanes() const
 struct View::Implementation
 {
   explicit Implementation(const Scene& scene, const LightField& field)
-      : TheScene(scene), Field(field), Direct(scene), Near(scene, field)
+      : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
   {
     this->MultipleMean.reserve(field.MultipleFluence.size());
     for (const Lanes& lanes : field.MultipleFluence)
@@ -64,8 +64,9 @@ struct View::Implementation
     }
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
-      this->MultipleShape[band] =
-        CellShape(scene, this->Near.Open(), this->MultipleMean.data() + field.CellIndex(band, 0));
+      const float* means = this->MultipleMean.data() + field.CellIndex(band, 0);
+      this->MultipleShape[band] = CellShape(scene, this->DirectFluence.Open(),
+        [means](std::int64_t, std::int64_t cell) { return means[cell]; });
     }
     this->FindLeak();
   }
@@ -77,7 +78,7 @@ struct View::Implementation
   const Scene& TheScene;
   const LightField& Field;
   DirectLight Direct;
-  DirectField Near;
+  DirectField DirectFluence;
   /// Mean of the batches of the multiply scattered fluence.
   std::vector<float> MultipleMean;
   std::array<CellShape, 3> MultipleShape;
@@ -148,11 +149,11 @@ RayLight View::TraceVeil(
                                          : 1.0 / extinction - length * (1.0 - lost) / lost;
         const Vec3 point = origin + (segment.Begin + mean) * direction;
         const double weight = scatter * ahead * lost;
-        light.VeilDirect += weight * self.Near.Smooth(segment.Cell, point, band);
+        light.VeilDirect += weight * self.DirectFluence.Smooth(segment.Cell, point, band);
         self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
-        if (self.Near.Near(segment.Cell))
+        if (self.DirectFluence.Near(segment.Cell))
         {
-          light.VeilDirect += ahead * self.Near.NearVeil(segment.Cell, origin, direction,
+          light.VeilDirect += ahead * self.DirectFluence.NearVeil(segment.Cell, origin, direction,
                                         segment.Begin, segment.End, extinction, band);
         }
       }
