@@ -478,11 +478,12 @@ RayLight View::TraceVeil(
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
 {
   RayLight light = this->TraceVeil(origin, direction, 0.0, hit.Distance, band);
+  const double transmittance = std::exp(-light.OpticalDepth);
   if (!hit.Found())
   {
+    light.Surface = transmittance * this->Scene_->Sky();
     return light;
   }
-  const double transmittance = std::exp(-light.OpticalDepth);
   const Vec3 point = origin + hit.Distance * direction;
   const std::size_t patch = this->Scene_->Patch(hit);
   if (hit.Emitter)
@@ -533,8 +534,7 @@ double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, 
   if (side == 0)
   {
     const double cosine = std::max(0.0, glm::dot(towards, front));
-    luminance +=
-      cell.Luminance[band] * (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
+    luminance += cell.Luminance[band] * lights.CellLaw(emitter).Relative(towards, cosine);
   }
   return luminance;
 }

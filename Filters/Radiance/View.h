@@ -45,8 +45,9 @@ public:
   Hit FirstHit(const Vec3& origin, const Vec3& direction,
     double end = std::numeric_limits<double>::infinity()) const;
 
-  /// Light that arrives at the origin against the direction of the ray, which ends at `hit`.
-  /// Where the hit is an emitter cell its own luminance is included.
+  /// Light that arrives at the origin against the direction of the ray, which ends at `hit` or,
+  /// where nothing was hit, at the sky. Where the hit is an emitter cell its own luminance is
+  /// included.
   RayLight Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const;
 
   /// Only the share of that light that the smoke between two distances sends (Surface stays 0). The
