@@ -6,6 +6,7 @@
 #include "ExtinctionSource.h"
 #include "SmvFile.h"
 #include "SolidCells.h"
+#include "SrgbColor.h"
 #include "WallBuilder.h"
 
 #include "vtkCellArray.h"
