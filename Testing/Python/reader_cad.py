@@ -54,14 +54,15 @@ for name in sorted(os.listdir(samples)):
     assert lights.GetNumberOfCells() == 0, name
     transparent = field(walls, "TransparentTriangles")
     # Glass of an opacity of 0.2 is left out where the format has it.
-    colored = name.split(".")[1] not in ("stl", "ply", "dxf")
-    assert transparent == (2 if colored else 0), (name, transparent)
+    extension = name.split(".")[1]
+    glass = extension not in ("stl", "ply", "dxf", "igs")
+    assert transparent == (2 if glass else 0), (name, transparent)
     assert walls.GetNumberOfCells() == 16 - transparent, name
     bounds = field_numbers(walls, "ModelBounds")
-    expected = [1, 2 if colored else 3, 1.99, 4, 0, 3]
+    expected = [1, 2 if glass else 3, 1.99, 4, 0, 3]
     assert numpy.abs(numpy.subtract(bounds, expected)).max() < 2e-6, (name, bounds)
     assert numpy.abs(numpy.subtract(walls.GetBounds(), expected)).max() < 2e-6, name
-    if not colored:
+    if extension in ("stl", "ply", "dxf"):
         assert (cell_array(walls, "Reflectance") == 0.5).all(), name
 
 # --- arrays -----------------------------------------------------------------------------------------
