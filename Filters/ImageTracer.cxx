@@ -22,6 +22,8 @@ constexpr int BlockSize = 32;
 constexpr int PatternSamples = 8;
 /// Samples along each side of a pixel at the edge of a plate.
 constexpr int EdgeSamples = 4;
+/// Points of the lens that an image with depth of field is averaged over.
+constexpr int LensSamples = 64;
 /// Distances that differ by less than this share have the same smoke before them.
 constexpr double SameDistance = 0.01;
 
@@ -154,7 +156,7 @@ private:
     lanes = Lanes();
     if (!hit.Found())
     {
-      return 0.0;
+      return this->View_.TheScene().Sky();
     }
     const Vec3 point = this->Camera_.Position + hit.Distance * ray;
     if (hit.Emitter)
@@ -279,10 +281,7 @@ private:
   int Bands_;
 };
 
-} // namespace
-
-//------------------------------------------------------------------------------
-TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress)
+TracedImage TracePinhole(const View& view, const Camera& camera, double acuity, Progress& progress)
 {
   const std::size_t pixels = static_cast<std::size_t>(camera.Width) * camera.Height;
   TracedImage image;
@@ -317,6 +316,74 @@ TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Pr
   if (progress.ShouldStop())
   {
     throw Error("image", "it was stopped before it was finished");
+  }
+  return image;
+}
+
+/// Progress of one of several equal parts of the work.
+class PartProgress : public Progress
+{
+public:
+  PartProgress(Progress& whole, int part, int parts) : Whole_(whole), Part_(part), Parts_(parts) {}
+
+  void Report(double fraction) override
+  {
+    this->Whole_.Report((this->Part_ + fraction) / this->Parts_);
+    if (this->Whole_.ShouldStop())
+    {
+      this->Stop();
+    }
+  }
+
+private:
+  Progress& Whole_;
+  int Part_;
+  int Parts_;
+};
+
+void AddTo(std::vector<float>& sum, const std::vector<float>& values)
+{
+  std::transform(
+    sum.begin(), sum.end(), values.begin(), sum.begin(), [](float a, float b) { return a + b; });
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress)
+{
+  if (!(camera.Aperture > 0.0))
+  {
+    return TracePinhole(view, camera, acuity, progress);
+  }
+  Camera centre = camera;
+  centre.Aperture = 0.0;
+  PartProgress first(progress, 0, LensSamples + 1);
+  TracedImage image = TracePinhole(view, centre, acuity, first);
+  const auto channels = [](TracedImage& of)
+  {
+    return std::array<std::vector<float>*, 6>{
+      &of.Luminance, &of.LuminanceError, &of.Direct, &of.Veil, &of.OpticalDepth, &of.LuminanceRGB};
+  };
+  for (std::vector<float>* const values : channels(image))
+  {
+    std::fill(values->begin(), values->end(), 0.0F);
+  }
+  for (int point = 0; point < LensSamples; ++point)
+  {
+    PartProgress part(progress, point + 1, LensSamples + 1);
+    TracedImage sample = TracePinhole(view, camera.ThroughLens(point, LensSamples), acuity, part);
+    for (std::size_t i = 0; i < channels(image).size(); ++i)
+    {
+      AddTo(*channels(image)[i], *channels(sample)[i]);
+    }
+  }
+  for (std::vector<float>* const values : channels(image))
+  {
+    for (float& value : *values)
+    {
+      value /= static_cast<float>(LensSamples);
+    }
   }
   return image;
 }

@@ -30,7 +30,8 @@ struct TracedImage
 
 /// Traces all pixels. A pixel that shows a plate of a sign or lamp averages over its footprint,
 /// which is no smaller than the observer resolves. The result does not depend on the number of
-/// threads. Throws Error when stopped.
+/// threads. A camera with an aperture is the mean of pinhole cameras all over its lens; its SignIds
+/// are those of the lens's centre. Throws Error when stopped.
 /// @param acuity smallest angle that is resolved [rad]
 TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress);
 

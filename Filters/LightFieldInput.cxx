@@ -99,6 +99,8 @@ void LightFieldInput::Load(vtkDataObject* input)
 
   SceneOptions options;
   options.Albedo = NeededNumber(input, "Albedo");
+  // Light fields from elsewhere may know of no sky.
+  FieldNumber(input, "SkyLuminance", 0, options.Sky);
   options.Bands = NeededNumber(input, "Bands") == 3.0 ? 3 : 1;
   for (int band = 0; band < options.Bands; ++band)
   {

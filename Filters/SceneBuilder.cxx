@@ -2,6 +2,7 @@
 #include "SceneBuilder.h"
 
 #include "Errors.h"
+#include "PhotometricArrays.h"
 #include "SurfaceRefiner.h"
 
 #include <vtkCellArray.h>
@@ -199,6 +200,7 @@ void AddEmitters(const SurfaceBlock& block, int bands, std::vector<EmitterCell>&
   const CheckedArray signId(*block.Mesh, block.Name, "SignId", false, -1.0,
     std::numeric_limits<int>::max(), "Give a whole number from 0, or -1 for a lamp");
   const CheckedArray reflectance = Reflectance(block);
+  const PhotometricArrays photometry(*block.Mesh, block.Name);
   ForEachPolygon(block,
     [&](vtkIdType cell, const std::vector<std::array<double, 3>>& points)
     {
@@ -210,6 +212,8 @@ void AddEmitters(const SurfaceBlock& block, int bands, std::vector<EmitterCell>&
       emitter.Luminance = luminance.Bands(cell, bands);
       emitter.Exponent = exponent ? exponent.Value(cell) : 0.0;
       emitter.Reflectance = reflectance ? reflectance.Bands(cell, bands) : Spectrum{};
+      emitter.Table = photometry.Table(cell);
+      emitter.TableAxis = photometry.Axis(cell);
       emitter.SignId = signId ? static_cast<int>(signId.Value(cell)) : -1;
       emitters.push_back(std::move(emitter));
     });
@@ -229,6 +233,7 @@ SceneDescription BuildScene(const SceneBlocks& blocks, const SceneOptions& optio
   scene.Bands = options.Bands;
   scene.ExtinctionScale = options.ExtinctionScale;
   scene.Albedo = options.Albedo;
+  scene.Sky = options.Sky;
   for (const SmokeBlock& block : blocks.Smoke)
   {
     scene.Grids.push_back(BuildGrid(block));

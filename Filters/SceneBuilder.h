@@ -14,6 +14,8 @@ struct SceneOptions
   int Bands = 1;
   Spectrum ExtinctionScale = {1.0, 1.0, 1.0};
   double Albedo = 0.3;
+  /// Luminance of the sky [cd/m2].
+  double Sky = 0.0;
 };
 
 /// Describes the scene of the blocks. Grids, surface cells and emitter cells keep their order. With

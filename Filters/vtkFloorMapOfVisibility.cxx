@@ -120,10 +120,18 @@ void vtkFloorMapOfVisibility::CheckProperties() const
   check(std::isfinite(this->EyeHeight), "EyeHeight", "it is not finite", "Give it in metres");
   check(notNegative(this->ContrastThreshold), "ContrastThreshold", "it is negative",
     "Give 0.2 for the point of disappearance");
+  check(notNegative(this->ThresholdSpread), "ThresholdSpread", "it is negative",
+    "Give 0.04, or 0 for observers who are all alike");
   check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
     "Give a luminance in cd/m2 from 0");
   check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
   check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
+  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
+    "Give a luminance in cd/m2 from 0");
+  check(
+    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
+  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
+    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
@@ -179,6 +187,8 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   options.ContrastThreshold = this->ContrastThreshold;
   options.CutOff = this->CutOff;
   options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  options.ThresholdSpread = this->ThresholdSpread;
+  options.State = {this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
   smokevis::PipelineProgress progress(this, 0.05, 0.98);
   const smokevis::FloorMap map = smokevis::ComputeFloorMap(view, options, progress);
 
@@ -195,6 +205,8 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   }
   AddFloats(output, "Visibility", map.Visibility);
   AddFloats(output, "VisibilityError", map.VisibilityError);
+  AddFloats(output, "VisibleProbability", map.VisibleProbability);
+  AddFloats(output, "EyeLuminance", map.EyeLuminance);
   AddInts(output, "BestSign", map.BestSign);
   AddFloats(output, "Contrast", map.Contrast, names);
   AddFloats(output, "PerceivedContrast", map.PerceivedContrast, names);
@@ -243,7 +255,12 @@ void vtkFloorMapOfVisibility::PrintSelf(ostream& os, vtkIndent indent)
     os << this->Bounds[i] << (i < 5 ? ", " : ")\n");
   }
   os << indent << "ContrastThreshold: " << this->ContrastThreshold << "\n";
+  os << indent << "ThresholdSpread: " << this->ThresholdSpread << "\n";
   os << indent << "DarkLuminance: " << this->DarkLuminance << "\n";
   os << indent << "CutOff: " << this->CutOff << "\n";
   os << indent << "Acuity: " << this->Acuity << "\n";
+  os << indent << "AdaptationLuminance: " << this->AdaptationLuminance << "\n";
+  os << indent << "AdaptationTime: " << this->AdaptationTime << "\n";
+  os << indent << "Glare: " << this->Glare << "\n";
+  os << indent << "ObserverAge: " << this->ObserverAge << "\n";
 }

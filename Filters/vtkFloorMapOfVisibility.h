@@ -9,6 +9,10 @@
  * - `Contrast` (standard deviation over mean), `PerceivedContrast`, `SignLuminance` (mean of the
  * lit cells as it arrives [cd/m2]) and `VisibleFraction`, float, a component a sign, named after
  * it;
+ * - `VisibleProbability`, float, the share of observers who see the best sign, the contrast at
+ * which it is lost being normally distributed over them (ContrastThreshold, ThresholdSpread);
+ * - `EyeLuminance`, float [cd/m2], what counts as the eye's own noise when it looks at the best
+ * sign: DarkLuminance and what adaptation and glare add;
  * - `OpticalDepth` and `JinVisibility` (3 / mean extinction [m]), float, along the line to the best
  *   sign;
  * - `Status`, int: SEEN, BELOW_THRESHOLD, NO_SIGN_IN_VIEW, INSIDE_SOLID.
@@ -75,6 +79,15 @@ public:
 
   ///@{
   /**
+   * Standard deviation of that threshold over observers, from 0; 0: all have the same.
+   * Default: 0.04.
+   */
+  vtkSetMacro(ThresholdSpread, double);
+  vtkGetMacro(ThresholdSpread, double);
+  ///@}
+
+  ///@{
+  /**
    * Equivalent luminance of the observer's own noise [cd/m2], from 0; 0 for plain contrast.
    * Default: 0.1.
    */
@@ -100,6 +113,42 @@ public:
   vtkGetMacro(Acuity, double);
   ///@}
 
+  ///@{
+  /**
+   * Luminance that the eye was adapted to before it came here, such as that of a lit room [cd/m2],
+   * from 0; 0: adapted to the dark. It raises the eye's own noise by 0.05 L (1.9 + t)^-1.4, the
+   * adaptation curve of CIE 88, t being AdaptationTime. Default: 0.
+   */
+  vtkSetMacro(AdaptationLuminance, double);
+  vtkGetMacro(AdaptationLuminance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Time since the eye left the place that it was adapted to [s], from 0. Default: 0.
+   */
+  vtkSetMacro(AdaptationTime, double);
+  vtkGetMacro(AdaptationTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether lamps, other signs and flames in open view veil the sign that the eye looks at, by the
+   * general equation for disability glare of CIE 146 (2002). Default: 0.
+   */
+  vtkSetMacro(Glare, bool);
+  vtkGetMacro(Glare, bool);
+  vtkBooleanMacro(Glare, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Age of the observer, for glare [years], from 0 to 100. Default: 35.
+   */
+  vtkSetMacro(ObserverAge, double);
+  vtkGetMacro(ObserverAge, double);
+  ///@}
+
 protected:
   vtkFloorMapOfVisibility();
   ~vtkFloorMapOfVisibility() override;
@@ -120,9 +169,14 @@ private:
   int Resolution[2] = {12, 8};
   double Bounds[6] = {1.0, -1.0, 1.0, -1.0, 1.0, -1.0};
   double ContrastThreshold = 0.2;
+  double ThresholdSpread = 0.04;
   double DarkLuminance = 0.1;
   double CutOff = 0.0;
   double Acuity = 1.0;
+  double AdaptationLuminance = 0.0;
+  double AdaptationTime = 0.0;
+  bool Glare = false;
+  double ObserverAge = 35.0;
 
   struct Internals;
   std::unique_ptr<Internals> Implementation;

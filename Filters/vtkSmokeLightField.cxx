@@ -182,6 +182,8 @@ void vtkSmokeLightField::CheckProperties() const
     "it is outside 0 to 1", "Give a diffuse reflectance");
   check(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance",
     "it is not above 0 and at most 1", "Give 0.01 for 1 %");
+  check(this->SkyLuminance >= 0.0 && std::isfinite(this->SkyLuminance), "SkyLuminance",
+    "it is negative or not finite", "Give a luminance in cd/m2, or 0 for a dark outside");
   check(this->Seed >= 0, "Seed", "it is negative", "Give a whole number from 0");
   check(this->PatchSize >= 0.0 && std::isfinite(this->PatchSize), "PatchSize",
     "it is negative or not finite", "Give a length in metres, or 0 for an automatic one");
@@ -219,10 +221,10 @@ void vtkSmokeLightField::Solve(
   report.push_back({"Surface patches", static_cast<double>(Refine(blocks.Surfaces, patchSize)),
     "surfaces are cut to edges of at most " + std::to_string(patchSize) + " m"});
   Refine(blocks.Emitters, std::numeric_limits<double>::infinity());
-  if (blocks.Emitters.empty() && !smokeEmits)
+  if (blocks.Emitters.empty() && !smokeEmits && this->SkyLuminance == 0.0)
   {
     throw Error("Emitters", "nothing gives light",
-      "Connect signs or lamps, such as the sources ExitSign and Luminaire");
+      "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
   }
 
   std::vector<SurfaceBlock*> patches;
@@ -246,6 +248,7 @@ void vtkSmokeLightField::Solve(
         std::pow(ReferenceWavelength / this->Wavelengths[band], this->AngstromExponent);
     }
   }
+  options.Sky = this->SkyLuminance;
   options.Albedo = this->Albedo;
   const char* why = "the property";
   if (this->Albedo < 0.0)
@@ -310,6 +313,7 @@ void vtkSmokeLightField::Solve(
     {
       smokevis::AddFieldNumber(*target, "ExtinctionScale", {scale[0]});
     }
+    smokevis::AddFieldNumber(*target, "SkyLuminance", {this->SkyLuminance});
     smokevis::AddFieldNumber(*target, "Tolerance", {this->Tolerance});
     smokevis::AddFieldNumber(*target, "Seed", {static_cast<double>(this->Seed)});
     vtkInformation* const info = smoke->GetInformation();
@@ -355,6 +359,7 @@ void vtkSmokeLightField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wavelengths: (" << this->Wavelengths[0] << ", " << this->Wavelengths[1] << ", "
      << this->Wavelengths[2] << ")\n";
   os << indent << "DefaultReflectance: " << this->DefaultReflectance << "\n";
+  os << indent << "SkyLuminance: " << this->SkyLuminance << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "PatchSize: " << this->PatchSize << "\n";

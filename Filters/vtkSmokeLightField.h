@@ -11,9 +11,10 @@
  * on cells: `EmittedLuminance`, 1 component, the luminance of flames [cd/m2]. Where grids overlap
  * the one with the smaller cells counts. Hidden cells count as clear.
  * - port 1, Surfaces (optional, several): `Reflectance`, 1 or 3 components, 0 to 1, of cells.
- * - port 2, Emitters (optional where smoke emits, several): `Luminance` [cd/m2], 1 or 3 components,
- * of cells, sent out from the front (the right-hand side). Optional: `EmissionExponent` n for
- *   luminance times cos^n, `SignId` (int, -1: a lamp), `SignName` (string), `Reflectance`.
+ * - port 2, Emitters (optional where smoke or sky gives light, several): `Luminance` [cd/m2], 1 or
+ * 3 components, of cells, sent out from the front (the right-hand side). Optional:
+ * `EmissionExponent` n for luminance times cos^n, `SignId` (int, -1: a lamp), `SignName` (string),
+ * `Reflectance`, and a measured spread of light, as vtkLuminaireSource describes it.
  *
  * Output: a collection of the partitioned data sets `Smoke`, `Surfaces` and `Emitters`, which keeps
  * all input arrays and can be saved and read back. Added cell arrays, float, a component a band
@@ -26,8 +27,8 @@
  * is the input cell of each.
  *
  * Field data of the output: `Albedo`, `AngstromExponent`, `Bands`, `ExtinctionScale` (a value a
- * band), `Tolerance`, `Seed`, `Time` [s] where the smoke has one, and what was done and left out as
- * `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ * band), `SkyLuminance`, `Tolerance`, `Seed`, `Time` [s] where the smoke has one, and what was done
+ * and left out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
  *
  * @par References
  * Q. Zhang, P. A. Rubini, Modelling of light extinction by soot particles, Fire Safety Journal 46
@@ -105,6 +106,16 @@ public:
 
   ///@{
   /**
+   * Luminance of the sky [cd/m2], from 0: daylight. It comes in from all directions, above and
+   * below, along every line that meets no surface between the scene and the outside of the box
+   * around it. An overcast sky has about 2000 (CIE), a clear one some thousands. Default: 0, dark.
+   */
+  vtkSetMacro(SkyLuminance, double);
+  vtkGetMacro(SkyLuminance, double);
+  ///@}
+
+  ///@{
+  /**
    * Relative standard error that luminances of the veil are to have, above 0, at most 1.
    * Default: 0.01.
    */
@@ -158,6 +169,7 @@ private:
   int Bands = LUMINANCE;
   double Wavelengths[3] = {630.0, 532.0, 465.0};
   double DefaultReflectance = 0.5;
+  double SkyLuminance = 0.0;
   double Tolerance = 0.01;
   int Seed = 1;
   double PatchSize = 0.0;

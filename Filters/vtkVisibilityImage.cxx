@@ -2,11 +2,15 @@
 
 #include "Contrast.h"
 #include "Errors.h"
+#include "Eye.h"
 #include "ImageTracer.h"
 #include "LightFieldInput.h"
+#include "Photograph.h"
 #include "PipelineProgress.h"
+#include "ThinLens.h"
 #include "WholeInput.h"
 
+#include <vtkExecutive.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -21,18 +25,27 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 vtkStandardNewMacro(vtkVisibilityImage);
 
 struct vtkVisibilityImage::Internals
 {
   smokevis::LightFieldInput Input;
+  /// Of filter and input when the image could not be made, 0: it could.
+  vtkMTimeType FailedFilter = 0;
+  vtkMTimeType FailedInput = 0;
 };
 
 namespace
 {
 
+/// In metres.
+constexpr double Millimetre = 1e-3;
 constexpr std::int64_t MaximumPixels = 100000000;
+/// Threshold of observers and its spread, for the share of them who see the sign.
+constexpr double Threshold = 0.2;
+constexpr double ThresholdSpread = 0.04;
 constexpr std::size_t NoSign = static_cast<std::size_t>(-1);
 
 using smokevis::Error;
@@ -98,10 +111,14 @@ int LargestSign(const std::vector<int>& signIds)
 //------------------------------------------------------------------------------
 vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Internals>())
 {
+  this->SetNumberOfOutputPorts(2);
 }
 
 //------------------------------------------------------------------------------
-vtkVisibilityImage::~vtkVisibilityImage() = default;
+vtkVisibilityImage::~vtkVisibilityImage()
+{
+  this->SetResponseFile(nullptr);
+}
 
 //------------------------------------------------------------------------------
 int vtkVisibilityImage::FillInputPortInformation(int, vtkInformation* info)
@@ -114,14 +131,19 @@ int vtkVisibilityImage::FillInputPortInformation(int, vtkInformation* info)
 int vtkVisibilityImage::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkInformation* const info = outputVector->GetInformationObject(0);
-  const int extent[6] = {
-    0, std::max(1, this->ImageSize[0]) - 1, 0, std::max(1, this->ImageSize[1]) - 1, 0, 0};
+  double sensor[2];
+  int size[2];
+  this->UseModel(sensor, size);
+  const int extent[6] = {0, std::max(1, size[0]) - 1, 0, std::max(1, size[1]) - 1, 0, 0};
   const double origin[3] = {0.0, 0.0, 0.0};
   const double spacing[3] = {1.0, 1.0, 1.0};
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-  info->Set(vtkDataObject::ORIGIN(), origin, 3);
-  info->Set(vtkDataObject::SPACING(), spacing, 3);
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* const info = outputVector->GetInformationObject(port);
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+    info->Set(vtkDataObject::ORIGIN(), origin, 3);
+    info->Set(vtkDataObject::SPACING(), spacing, 3);
+  }
   return 1;
 }
 
@@ -131,6 +153,21 @@ int vtkVisibilityImage::RequestUpdateExtent(
 {
   smokevis::RequestWholeInputs(inputVector[0]);
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::UseModel(double sensor[2], int size[2]) const
+{
+  std::copy_n(this->SensorSize, 2, sensor);
+  std::copy_n(this->ImageSize, 2, size);
+  if (this->CameraModel == CANON_EOS_10D)
+  {
+    sensor[0] = 22.7;
+    sensor[1] = 15.1;
+    const int binning = std::max(1, this->PixelBinning);
+    size[0] = std::max(1, 3072 / binning);
+    size[1] = std::max(1, 2048 / binning);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -160,12 +197,36 @@ void vtkVisibilityImage::CheckProperties() const
   check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
     "Give a luminance in cd/m2 from 0");
   check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
+  check(this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
+  check(notNegative(this->FocusDistance), "FocusDistance", "it is negative",
+    "Give metres from the sensor, or 0 for infinity");
+  check(notNegative(this->ExposureTime), "ExposureTime", "it is negative",
+    "Give seconds, or 0 for a metered exposure");
+  check(positive(this->ISO), "ISO", "it is not positive", "Give 100, for example");
+  check(notNegative(this->ReadNoise), "ReadNoise", "it is negative",
+    "Give a share of the saturating exposure, or 0");
+  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
+    "Give a luminance in cd/m2 from 0");
+  check(
+    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
+  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
+    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
-void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
+void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
 {
   this->CheckProperties();
+  const smokevis::ResponseCurve response = this->ResponseFile && *this->ResponseFile
+                                             ? smokevis::ResponseCurve::Read(this->ResponseFile)
+                                             : smokevis::ResponseCurve();
+  double sensor[2];
+  int size[2];
+  this->UseModel(sensor, size);
+  const smokevis::ThinLens lens =
+    this->FocusDistance > 0.0
+      ? smokevis::ThinLens::Focused(Millimetre * this->FocalLength, this->FocusDistance)
+      : smokevis::ThinLens::FocusedAtInfinity(Millimetre * this->FocalLength);
   const smokevis::View& view = this->Implementation->Input.Get(input);
   const Vec3 eye = Vector(this->CameraPosition);
   if (view.InsideSolid(eye))
@@ -184,13 +245,18 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
         "The signs of this light field: " + this->Implementation->Input.SignIds());
     }
     camera = smokevis::Camera::FramePlate(eye, view.TheScene().Lights().Signs()[sign].Corners,
-      Vector(this->CameraViewUp), this->Margin, this->ImageSize[0], this->ImageSize[1]);
+      Vector(this->CameraViewUp), this->Margin, size[0], size[1]);
   }
   else
   {
-    camera = smokevis::Camera::LookAt(eye, Vector(this->CameraFocalPoint),
-      Vector(this->CameraViewUp), this->FocalLength, this->SensorSize[0], this->SensorSize[1],
-      this->ImageSize[0], this->ImageSize[1]);
+    camera =
+      smokevis::Camera::LookAt(eye, Vector(this->CameraFocalPoint), Vector(this->CameraViewUp),
+        lens.ImageDistance / Millimetre, sensor[0], sensor[1], size[0], size[1]);
+  }
+  if (this->LensBlur)
+  {
+    camera.Aperture = lens.FocalLength / this->FNumber;
+    camera.FocusDistance = lens.ObjectDistance;
   }
 
   const double acuity = vtkMath::RadiansFromDegrees(this->Acuity / 60.0);
@@ -199,7 +265,7 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
 
   output->SetOrigin(0.0, 0.0, 0.0);
   output->SetSpacing(1.0, 1.0, 1.0);
-  output->SetDimensions(this->ImageSize[0], this->ImageSize[1], 1);
+  output->SetDimensions(size[0], size[1], 1);
   AddFloats(output, "Luminance", image.Luminance);
   AddFloats(output, "LuminanceError", image.LuminanceError);
   AddFloats(output, "DirectLuminance", image.Direct);
@@ -227,10 +293,20 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
 
   const int measured = this->TargetSign >= 0 ? this->TargetSign : LargestSign(image.SignIds);
   smokevis::SignMeasurement result;
+  smokevis::Observer observer{this->DarkLuminance, acuity};
   if (measured >= 0)
   {
     sign = FindSign(view, measured);
-    result = smokevis::MeasureSign(view, sign, eye, {this->DarkLuminance, acuity});
+    const smokevis::Adaptation state{
+      this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+    std::optional<smokevis::GlareSources> glare;
+    if (this->Glare)
+    {
+      glare.emplace(view, eye);
+    }
+    observer = smokevis::LookingAt(
+      observer, state, glare ? &*glare : nullptr, view.TheScene().Lights().Signs()[sign]);
+    result = smokevis::MeasureSign(view, sign, eye, observer);
   }
   if (this->TargetSign >= 0 && !result.InView)
   {
@@ -254,29 +330,69 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output)
   number("OpticalDepthToSign", {result.OpticalDepth});
   number("SensorIlluminance",
     {0.25 * vtkMath::Pi() * result.MeanLuminance / (this->FNumber * this->FNumber)});
+  number("VisibleProbability",
+    {result.InView
+        ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
+        : 0.0});
+  number("EyeLuminance", {observer.DarkLuminance});
   number("CameraPosition", {eye.x, eye.y, eye.z});
   number("CameraForward", {camera.Forward.x, camera.Forward.y, camera.Forward.z});
   number("CameraUp", {camera.Up.x, camera.Up.y, camera.Up.z});
   number("CameraWindow", {camera.Left, camera.RightEdge, camera.Bottom, camera.Top});
+  number("ImageDistance", {lens.ImageDistance / Millimetre});
+  number("ObjectDistance", {lens.ObjectDistance});
+  number("Magnification", {lens.Magnification()});
+
+  const bool colour = this->Implementation->Input.Bands() == 3;
+  const smokevis::Photograph taken =
+    smokevis::TakePhotograph(colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1,
+      {this->FNumber, lens.Magnification(), this->ExposureTime, this->ISO, this->ReadNoise,
+        static_cast<std::uint64_t>(this->NoiseSeed)},
+      response);
+  number("ShutterTime", {taken.Time});
+  photograph->CopyStructure(output);
+  photograph->GetFieldData()->DeepCopy(output->GetFieldData());
+  vtkNew<vtkUnsignedCharArray> pixels;
+  pixels->SetName("Photograph");
+  pixels->SetNumberOfComponents(colour ? 3 : 1);
+  pixels->SetNumberOfTuples(output->GetNumberOfPoints());
+  std::copy(taken.Values.begin(), taken.Values.end(), pixels->GetPointer(0));
+  photograph->GetPointData()->SetScalars(pixels);
 }
 
 //------------------------------------------------------------------------------
 int vtkVisibilityImage::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkImageData* output = vtkImageData::GetData(outputVector);
+  vtkImageData* const output = vtkImageData::GetData(outputVector, 0);
+  vtkImageData* const photograph = vtkImageData::GetData(outputVector, 1);
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  Internals& own = *this->Implementation;
+  const vtkMTimeType inputTime = input ? input->GetMTime() : 0;
+  if (request->Get(vtkExecutive::FROM_OUTPUT_PORT()) == 1 && own.FailedFilter == this->GetMTime() &&
+      own.FailedInput == inputTime)
+  {
+    // The second output is asked for after the first has failed: that was said already.
+    output->Initialize();
+    photograph->Initialize();
+    return 0;
+  }
+  own.FailedFilter = 0;
   try
   {
-    this->Trace(vtkDataObject::GetData(inputVector[0]), output);
+    this->Trace(input, output, photograph);
     return 1;
   }
   catch (const std::exception& error)
   {
     output->Initialize();
+    photograph->Initialize();
     if (this->GetAbortOutput())
     {
       return 1;
     }
+    own.FailedFilter = this->GetMTime();
+    own.FailedInput = inputTime;
     vtkErrorMacro(<< error.what());
     return 0;
   }
@@ -295,8 +411,21 @@ void vtkVisibilityImage::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FocalLength: " << this->FocalLength << "\n";
   os << indent << "SensorSize: (" << this->SensorSize[0] << ", " << this->SensorSize[1] << ")\n";
   os << indent << "FNumber: " << this->FNumber << "\n";
+  os << indent << "CameraModel: " << this->CameraModel << "\n";
+  os << indent << "PixelBinning: " << this->PixelBinning << "\n";
+  os << indent << "FocusDistance: " << this->FocusDistance << "\n";
+  os << indent << "LensBlur: " << this->LensBlur << "\n";
+  os << indent << "ExposureTime: " << this->ExposureTime << "\n";
+  os << indent << "ISO: " << this->ISO << "\n";
+  os << indent << "ResponseFile: " << (this->ResponseFile ? this->ResponseFile : "(none)") << "\n";
+  os << indent << "ReadNoise: " << this->ReadNoise << "\n";
+  os << indent << "NoiseSeed: " << this->NoiseSeed << "\n";
   os << indent << "ImageSize: (" << this->ImageSize[0] << ", " << this->ImageSize[1] << ")\n";
   os << indent << "Margin: " << this->Margin << "\n";
   os << indent << "DarkLuminance: " << this->DarkLuminance << "\n";
   os << indent << "Acuity: " << this->Acuity << "\n";
+  os << indent << "AdaptationLuminance: " << this->AdaptationLuminance << "\n";
+  os << indent << "AdaptationTime: " << this->AdaptationTime << "\n";
+  os << indent << "Glare: " << this->Glare << "\n";
+  os << indent << "ObserverAge: " << this->ObserverAge << "\n";
 }

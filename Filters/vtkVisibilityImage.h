@@ -12,15 +12,22 @@
  * - `SignMask`, unsigned char, 1 where the middle of a pixel sees the front of the target sign, or
  * of any sign where there is no target; `SignIds`, int, the id of the sign seen, -1: none.
  *
+ * Second output: the photograph that a camera takes of it, the same points with the unsigned char
+ * array `Photograph`, one component or three with RGB, ready for a PNG file.
+ *
  * Field data, one double each, measured over the front of the target sign (without a target: the
  * sign that covers the most pixels) at the observer's acuity, not at the pixels of this image:
  * `Contrast` (standard deviation over mean), `PerceivedContrast` (standard deviation over mean plus
  * DarkLuminance) with `ContrastError` and `PerceivedContrastError`, `WebberContrast`,
  * `UL924Contrast`, `MeanLuminance`, `MeanLuminanceError`, `LitLuminance`, `UnlitLuminance` [cd/m2],
  * `VisibleFraction`, `OpticalDepthToSign`, `MeasuredSign` (its id, -1: none), and
- * `SensorIlluminance` [lx], the sign's mean illuminance on the sensor, pi L / (4 FNumber^2).
+ * `SensorIlluminance` [lx], the sign's mean illuminance on the sensor, pi L / (4 FNumber^2);
+ * `VisibleProbability`, the share of observers who see the sign, thresholds of 0.2 +- 0.04 being
+ * normally distributed; `EyeLuminance` [cd/m2], DarkLuminance and what adaptation and glare add.
  * The camera: `CameraPosition`, `CameraForward`, `CameraUp`, and `CameraWindow`, the tangents of
- * the angles to the left, right, lower and upper edge.
+ * the angles to the left, right, lower and upper edge. Of the lens: `ImageDistance` [mm],
+ * `ObjectDistance` [m, infinite where it is focused far away] and `Magnification`; of the
+ * photograph: `ShutterTime` [s].
  */
 #ifndef vtkVisibilityImage_h
 #define vtkVisibilityImage_h
@@ -72,7 +79,8 @@ public:
 
   ///@{
   /**
-   * Focal length [mm], above 0; counts where there is no target sign. Default: 50.
+   * Focal length [mm], above 0. Where there is a target sign the picture is cut to its plate, and
+   * the focal length counts for blur and photograph only. Default: 50.
    */
   vtkSetMacro(FocalLength, double);
   vtkGetMacro(FocalLength, double);
@@ -89,11 +97,99 @@ public:
 
   ///@{
   /**
-   * Focal length over aperture, above 0. Scales SensorIlluminance only; luminance does not depend
-   * on it. Default: 2.8.
+   * Focal length over aperture, above 0. Counts for photograph, blur and SensorIlluminance;
+   * luminance does not depend on it. Default: 2.8.
    */
   vtkSetMacro(FNumber, double);
   vtkGetMacro(FNumber, double);
+  ///@}
+
+  enum CameraModels
+  {
+    CUSTOM = 0,
+    CANON_EOS_10D = 1
+  };
+
+  ///@{
+  /**
+   * A camera whose sensor and pixels take the place of SensorSize and ImageSize. CUSTOM: none;
+   * CANON_EOS_10D: 22.7 x 15.1 mm and 3072 x 2048 pixels, as in Zhang and Rubini's experiment.
+   * Default: CUSTOM.
+   */
+  vtkSetClampMacro(CameraModel, int, CUSTOM, CANON_EOS_10D);
+  vtkGetMacro(CameraModel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Pixels of the camera model along each side that are merged into one of the image, from 1.
+   * Default: 8.
+   */
+  vtkSetMacro(PixelBinning, int);
+  vtkGetMacro(PixelBinning, int);
+  ///@}
+
+  ///@{
+  /**
+   * Distance from the sensor to the plane in focus [m], at least four focal lengths; the lens then
+   * stands further from the sensor than its focal length (Zhang and Rubini, eq. 8). 0: focused on
+   * infinity. Default: 0.
+   */
+  vtkSetMacro(FocusDistance, double);
+  vtkGetMacro(FocusDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether what lies outside the plane in focus is blurred by the lens's aperture, FocalLength
+   * over FNumber. Takes 65 times as long. Default: 0.
+   */
+  vtkSetMacro(LensBlur, bool);
+  vtkGetMacro(LensBlur, bool);
+  vtkBooleanMacro(LensBlur, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Exposure time of the photograph [s]; 0: what a meter that averages over the picture asks for,
+   * within 1/8000 and 30 s. Default: 0.
+   */
+  vtkSetMacro(ExposureTime, double);
+  vtkGetMacro(ExposureTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Speed of the photograph, ISO 12232, above 0. Default: 100.
+   */
+  vtkSetMacro(ISO, double);
+  vtkGetMacro(ISO, double);
+  ///@}
+
+  ///@{
+  /**
+   * CSV file with the camera's response, columns exposure [lx s at ISO 100] and pixel_value (0 to
+   * 255); none: a film-like curve. Default: none.
+   */
+  vtkSetFilePathMacro(ResponseFile);
+  vtkGetFilePathMacro(ResponseFile);
+  ///@}
+
+  ///@{
+  /**
+   * Standard deviation of the photograph's read noise as a share of the exposure that saturates the
+   * sensor, from 0. Default: 0.
+   */
+  vtkSetMacro(ReadNoise, double);
+  vtkGetMacro(ReadNoise, double);
+  ///@}
+
+  ///@{
+  /**
+   * Start of the random numbers of the read noise. Default: 1.
+   */
+  vtkSetMacro(NoiseSeed, int);
+  vtkGetMacro(NoiseSeed, int);
   ///@}
 
   ///@{
@@ -130,6 +226,42 @@ public:
   vtkGetMacro(Acuity, double);
   ///@}
 
+  ///@{
+  /**
+   * Luminance that the eye was adapted to before it came here, such as that of a lit room [cd/m2],
+   * from 0; 0: adapted to the dark. It raises the eye's own noise by 0.05 L (1.9 + t)^-1.4, the
+   * adaptation curve of CIE 88, t being AdaptationTime. Default: 0.
+   */
+  vtkSetMacro(AdaptationLuminance, double);
+  vtkGetMacro(AdaptationLuminance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Time since the eye left the place that it was adapted to [s], from 0. Default: 0.
+   */
+  vtkSetMacro(AdaptationTime, double);
+  vtkGetMacro(AdaptationTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether lamps, other signs and flames in open view veil the sign that the eye looks at, by the
+   * general equation for disability glare of CIE 146 (2002). Default: 0.
+   */
+  vtkSetMacro(Glare, bool);
+  vtkGetMacro(Glare, bool);
+  vtkBooleanMacro(Glare, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Age of the observer, for glare [years], from 0 to 100. Default: 35.
+   */
+  vtkSetMacro(ObserverAge, double);
+  vtkGetMacro(ObserverAge, double);
+  ///@}
+
 protected:
   vtkVisibilityImage();
   ~vtkVisibilityImage() override;
@@ -144,7 +276,8 @@ private:
   void operator=(const vtkVisibilityImage&) = delete;
 
   void CheckProperties() const;
-  void Trace(vtkDataObject* input, vtkImageData* output);
+  void UseModel(double sensor[2], int size[2]) const;
+  void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};
   int TargetSign = -1;
@@ -153,10 +286,23 @@ private:
   double FocalLength = 50.0;
   double SensorSize[2] = {36.0, 24.0};
   double FNumber = 2.8;
+  int CameraModel = CUSTOM;
+  int PixelBinning = 8;
+  double FocusDistance = 0.0;
+  bool LensBlur = false;
+  double ExposureTime = 0.0;
+  double ISO = 100.0;
+  char* ResponseFile = nullptr;
+  double ReadNoise = 0.0;
+  int NoiseSeed = 1;
   int ImageSize[2] = {256, 128};
   double Margin = 0.0;
   double DarkLuminance = 0.1;
   double Acuity = 1.0;
+  double AdaptationLuminance = 0.0;
+  double AdaptationTime = 0.0;
+  bool Glare = false;
+  double ObserverAge = 35.0;
 
   struct Internals;
   std::unique_ptr<Internals> Implementation;

@@ -147,4 +147,22 @@ Vec3 Camera::Direction(double x, double y) const
   return glm::normalize(this->Forward + u * this->Right + v * this->Up);
 }
 
+//------------------------------------------------------------------------------
+Camera Camera::ThroughLens(int point, int count) const
+{
+  // Equal areas a point, each turned by the golden angle from the one before (Vogel 1979).
+  const double radius = 0.5 * this->Aperture * std::sqrt((point + 0.5) / count);
+  const double angle = 2.399963229728653 * point;
+  const double x = radius * std::cos(angle);
+  const double y = radius * std::sin(angle);
+  Camera camera = *this;
+  camera.Aperture = 0.0;
+  camera.Position += x * this->Right + y * this->Up;
+  camera.Left -= x / this->FocusDistance;
+  camera.RightEdge -= x / this->FocusDistance;
+  camera.Bottom -= y / this->FocusDistance;
+  camera.Top -= y / this->FocusDistance;
+  return camera;
+}
+
 } // namespace smokevis

@@ -1,7 +1,9 @@
-// The pinhole camera, or eye, that an image is formed in.
+// The camera, or eye, that an image is formed in: a pinhole, or a lens with depth of field.
 #pragma once
 
 #include "Types.h"
+
+#include <limits>
 
 namespace smokevis
 {
@@ -18,6 +20,10 @@ struct Camera
   double Left = -1.0, RightEdge = 1.0, Bottom = -1.0, Top = 1.0;
   /// Pixels.
   int Width = 64, Height = 64;
+  /// Diameter of the lens's opening [m]; 0: a pinhole, sharp everywhere.
+  double Aperture = 0.0;
+  /// From the lens to the plane in focus, along the forward direction [m].
+  double FocusDistance = std::numeric_limits<double>::infinity();
 
   /// A camera that looks from a position at a point. Throws Error where the two coincide.
   /// @param sensorWidth,sensorHeight in the same unit as the focal length (mm by custom)
@@ -34,6 +40,10 @@ struct Camera
   /// Direction (unit) through the point (x, y) of the picture, in pixels from its lower left
   /// corner.
   Vec3 Direction(double x, double y) const;
+
+  /// The pinhole camera at one of `count` points that lie evenly over the lens's opening. Their
+  /// images agree in the plane in focus; their mean is the lens's image.
+  Camera ThroughLens(int point, int count) const;
 };
 
 } // namespace smokevis

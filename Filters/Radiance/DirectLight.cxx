@@ -182,10 +182,7 @@ void DirectLight::AddPoint(
     return;
   }
   double factor = path.Visible * cosine / square;
-  if (group.Exponent > 0.0)
-  {
-    factor *= std::pow(cosine, group.Exponent);
-  }
+  factor *= group.Law.Relative(-to / distance, cosine);
   if (receiver.Normal)
   {
     factor *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
@@ -234,10 +231,7 @@ void DirectLight::AddLeaf(
       {
         continue;
       }
-      if (leaf.Exponent > 0.0)
-      {
-        weight *= std::pow(cosine, leaf.Exponent);
-      }
+      weight *= leaf.Law.Relative(-to / distance, cosine);
       const double depth =
         few ? path.MeanExtinction * distance
             : this->Scene_.Smoke().OpticalDepth(point, to / distance, 0.0, distance);
@@ -338,7 +332,8 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
   const double distance = root.Distance(centre);
-  const bool splits = std::max({size.x, size.y, size.z}) > BoxRatio * distance;
+  const bool splits =
+    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
   return this->BoxFluence(light, centre, size, BoxSplits, splits && this->Clear(light, cell));
 }
 
@@ -350,7 +345,7 @@ Spectrum DirectLight::BoxFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = std::max({size.x, size.y, size.z});
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
   if (splits > 0 && edge > BoxRatio * distance)
   {
     // A box wholly behind the plate gets nothing.
@@ -450,6 +445,7 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     return;
   }
+  size *= root.Law.Sharpness();
   const auto splitAll = [&]
   {
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),

@@ -72,14 +72,20 @@ void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
     throw Error(where, "the emission exponent is " + std::to_string(cell.Exponent),
       "It must be finite and not negative");
   }
+  if (cell.Table && cell.SignId >= 0)
+  {
+    throw Error(where, "it is part of a sign and has an intensity table",
+      "Give signs an emission exponent; tables are for lamps, with a SignId of -1");
+  }
 }
 
-LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const std::array<Vec3, 4>& corners)
+LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law,
+  const std::array<Vec3, 4>& corners)
 {
   LightGroup leaf;
   leaf.Corners = corners;
   leaf.Normal = normal;
-  leaf.Exponent = cell.Exponent;
+  leaf.Law = law;
   const double first =
     0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   const double second =
@@ -121,6 +127,9 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
     const Vec3 area = AreaVector(cell.Vertices);
     this->Areas_.push_back(0.5 * glm::length(area));
     this->Normals_.push_back(glm::normalize(area));
+    this->Laws_.push_back(cell.Table
+                            ? EmissionLaw(*cell.Table, cell.TableAxis, this->Normals_.back())
+                            : EmissionLaw(cell.Exponent));
     Vec3 centre(0.0);
     for (std::size_t i = 2; i < cell.Vertices.size(); ++i)
     {
@@ -137,8 +146,7 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
 
 double EmitterSet::CellFlux(std::size_t cell, int band) const
 {
-  return glm::two_pi<double>() * this->Cells_[cell].Luminance[band] * this->Areas_[cell] /
-         (this->Cells_[cell].Exponent + 2.0);
+  return this->Laws_[cell].UnitFlux() * this->Cells_[cell].Luminance[band] * this->Areas_[cell];
 }
 
 double EmitterSet::Flux(int band) const
@@ -204,7 +212,7 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
   // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a
   // luminous panel do not.
   using Key = std::array<double, 8>;
-  std::map<Key, int> lights;
+  std::map<Key, std::size_t> firstCells;
   std::vector<int> parent;
   const auto find = [&parent](int light)
   {
@@ -234,10 +242,10 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
         samePlane ? round(n.x, 1e-5) : 0.0, samePlane ? round(n.y, 1e-5) : 0.0,
         samePlane ? round(n.z, 1e-5) : 0.0, round(place.x, step), round(place.y, step),
         round(place.z, step)};
-      const auto [known, fresh] = lights.try_emplace(key, lightOf[i]);
-      if (!fresh)
+      const std::size_t first = firstCells.try_emplace(key, i).first->second;
+      if (first != i && (!samePlane || this->Laws_[first] == this->Laws_[i]))
       {
-        parent[find(lightOf[i])] = find(known->second);
+        parent[find(lightOf[i])] = find(lightOf[first]);
       }
     };
     if (cell.SignId >= 0)
@@ -284,8 +292,8 @@ void EmitterSet::BuildLights(double largestLight)
     for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
     {
       const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
-      lights[lightOf[i]].push_back(
-        MakeLeaf(cell, this->Normals_[i], {vertices[0], vertices[v], vertices[v + 1], last}));
+      lights[lightOf[i]].push_back(MakeLeaf(cell, this->Normals_[i], this->Laws_[i],
+        {vertices[0], vertices[v], vertices[v + 1], last}));
     }
   }
   for (auto& [light, leaves] : lights)

@@ -1,21 +1,28 @@
 // Plates of signs and lamps: what they are made of and how they group into lights.
 #pragma once
 
+#include "EmissionLaw.h"
 #include "Types.h"
 
+#include <memory>
 #include <vector>
 
 namespace smokevis
 {
 
 /// One plane convex polygon of a sign's or lamp's plate. It emits from its front (right-hand side)
-/// only, luminance times cos^Exponent of the angle to the normal (0: Lambertian).
+/// only, luminance times cos^Exponent of the angle to the normal (0: Lambertian), or as a table
+/// says.
 struct EmitterCell
 {
   std::vector<Vec3> Vertices;
-  /// Luminance along the normal [cd/m2].
+  /// Luminance along the normal; with a table, flux / (pi area) [cd/m2].
   Spectrum Luminance{};
   double Exponent = 0.0;
+  /// Spread of a lamp's light over directions, instead of the exponent, and the direction of its
+  /// azimuth 0 (see EmissionLaw).
+  std::shared_ptr<const IntensityTable> Table;
+  Vec3 TableAxis{0.0};
   /// Diffuse reflectance of both sides, 0 to 1.
   Spectrum Reflectance{};
   /// Cells of one sign share an id >= 0; -1: a lamp.
@@ -37,14 +44,14 @@ struct Sign
   double Radius = 0.0;
 };
 
-/// A part of a light: cells with one normal and exponent that, from afar, act as one point.
+/// A part of a light: cells with one normal and law that, from afar, act as one point.
 struct LightGroup
 {
   /// Centre of the light that it emits, and the radius around it that holds the group [m].
   Vec3 Centre{0.0};
   double Radius = 0.0;
   Vec3 Normal{0.0};
-  double Exponent = 0.0;
+  EmissionLaw Law;
   /// Sum of luminance times area [cd]; for a leaf the luminance is this over Area.
   Spectrum Intensity{};
   double Area = 0.0;
@@ -75,6 +82,7 @@ public:
   const Vec3& CellNormal(std::size_t cell) const { return this->Normals_[cell]; }
   const Vec3& CellCentre(std::size_t cell) const { return this->Centres_[cell]; }
   double CellArea(std::size_t cell) const { return this->Areas_[cell]; }
+  const EmissionLaw& CellLaw(std::size_t cell) const { return this->Laws_[cell]; }
   /// Signs in the order of their ids.
   const std::vector<Sign>& Signs() const { return this->Signs_; }
   /// Whether the cell's own light is carried by random lines, not by Lights().
@@ -82,7 +90,8 @@ public:
   /// Roots, among Groups(), of the lights that shine directly.
   const std::vector<int>& Lights() const { return this->Lights_; }
   const std::vector<LightGroup>& Groups() const { return this->Groups_; }
-  /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2).
+  /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2), or pi L A with a
+  /// table.
   double Flux(int band) const;
   /// Luminous flux of one cell [lm].
   double CellFlux(std::size_t cell, int band) const;
@@ -99,6 +108,7 @@ private:
   std::vector<EmitterCell> Cells_;
   std::vector<Vec3> Normals_, Centres_;
   std::vector<double> Areas_;
+  std::vector<EmissionLaw> Laws_;
   std::vector<bool> LeftToLines_;
   std::vector<Sign> Signs_;
   std::vector<int> Lights_;

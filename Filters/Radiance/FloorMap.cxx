@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -60,6 +61,11 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
     ++skipped.Solid;
     return;
   }
+  std::optional<GlareSources> glare;
+  if (options.State.Glare)
+  {
+    glare.emplace(view, eye);
+  }
   for (std::size_t sign = 0; sign < map.Signs; ++sign)
   {
     if (FacesAway(lights, lights.Signs()[sign], eye))
@@ -67,13 +73,14 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       ++skipped.Away;
       continue;
     }
-    if (options.CutOff > 0.0 &&
-        PerceivedContrastBound(view, sign, eye, options.Eye) < options.CutOff)
+    const Observer observer =
+      LookingAt(options.Eye, options.State, glare ? &*glare : nullptr, lights.Signs()[sign]);
+    if (options.CutOff > 0.0 && PerceivedContrastBound(view, sign, eye, observer) < options.CutOff)
     {
       ++skipped.CutOff;
       continue;
     }
-    const SignMeasurement measured = MeasureSign(view, sign, eye, options.Eye);
+    const SignMeasurement measured = MeasureSign(view, sign, eye, observer);
     if (!measured.InView)
     {
       ++skipped.Hidden;
@@ -90,6 +97,9 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       map.BestSign[place] = lights.Signs()[sign].Id;
       map.Visibility[place] = static_cast<float>(measured.PerceivedContrast);
       map.VisibilityError[place] = static_cast<float>(measured.PerceivedContrastError);
+      map.VisibleProbability[place] = static_cast<float>(VisibleProbability(
+        measured.PerceivedContrast, options.ContrastThreshold, options.ThresholdSpread));
+      map.EyeLuminance[place] = static_cast<float>(observer.DarkLuminance);
       map.OpticalDepth[place] = static_cast<float>(measured.OpticalDepth);
       map.JinVisibility[place] =
         static_cast<float>(JinVisibility(measured.OpticalDepth / distance));
@@ -120,8 +130,8 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
   map.Status.assign(places, PlaceStatus::NoSignInView);
   map.BestSign.assign(places, -1);
-  for (std::vector<float>* values :
-    {&map.Visibility, &map.VisibilityError, &map.OpticalDepth, &map.JinVisibility})
+  for (std::vector<float>* values : {&map.Visibility, &map.VisibilityError, &map.OpticalDepth,
+         &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance})
   {
     values->assign(places, 0.0F);
   }

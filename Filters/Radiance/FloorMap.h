@@ -1,7 +1,7 @@
 // The Floor Map of Visibility: the best sign's contrast over a grid of standing places.
 #pragma once
 
-#include "Contrast.h"
+#include "Eye.h"
 #include "Progress.h"
 
 namespace smokevis
@@ -15,9 +15,12 @@ struct FloorMapOptions
   int PlacesX = 12, PlacesY = 8;
   /// Perceived contrast below which a sign counts as invisible.
   double ContrastThreshold = 0.2;
+  /// Standard deviation of that threshold over observers.
+  double ThresholdSpread = 0.04;
   /// Signs whose perceived contrast is bounded below this are not computed; 0: all are.
   double CutOff = 0.0;
   Observer Eye;
+  Adaptation State;
   /// Most worker threads; 0: as many as the machine has.
   int Threads = 0;
 };
@@ -38,6 +41,9 @@ struct FloorMap
   /// Largest perceived contrast, its standard error, the sign's id (-1: none), and along the line
   /// to that sign the optical depth and Jin's visibility 3/K [m] of the mean extinction.
   std::vector<float> Visibility, VisibilityError, OpticalDepth, JinVisibility;
+  /// Share of observers who see a sign, 0 to 1, and the equivalent luminance of the eye's noise,
+  /// glare and adaptation when looking at the best sign [cd/m2].
+  std::vector<float> VisibleProbability, EyeLuminance;
   std::vector<int> BestSign;
   std::vector<float> Contrast, PerceivedContrast, SignLuminance, VisibleFraction;
   std::vector<WorkItem> Report;

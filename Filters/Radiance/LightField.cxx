@@ -32,6 +32,8 @@ constexpr double DriftShare = 1.0;
 /// A field is not scaled by more than this at once.
 constexpr double SmallestScale = 0.25;
 constexpr double LargestScale = 1e3;
+/// A sign whose area is a larger share of the surface of the box around the scene is a wall.
+constexpr double LargestPlate = 0.02;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -52,6 +54,7 @@ private:
   void SolveCells();
   void SolvePatches();
   void SolveMultiple(int band);
+  void ShareOverPlates(int band);
   void Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
     std::vector<BatchState>& batches) const;
   int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
@@ -204,6 +207,11 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
 void Solver::Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
   std::vector<BatchState>& batches) const
 {
+  if (this->Scene_.Sky() > 0.0)
+  {
+    // Light from outside that a surface sends back out at once tells nothing about the rest.
+    return;
+  }
   // The power that surfaces and smoke send out again must be that which arrived and was not lost. A
   // field that is scaled to be in balance as a whole has its slowest mode's series of reflections
   // summed at once. Each batch for itself, so that their spread shows how well the scale is known.
@@ -255,7 +263,8 @@ int Solver::Settle(
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
     BlockMeans now(batches, this->Field_, band);
-    if (first > 0 && now.DriftSince(earlier) < DriftShare * this->Options_.Tolerance)
+    if (first > 0 &&
+        now.DriftSince(earlier, this->Options_.Tolerance) < DriftShare * this->Options_.Tolerance)
     {
       return done;
     }
@@ -284,7 +293,7 @@ void Solver::SolveMultiple(int band)
   {
     reflects = this->Scene_.PatchReflectance(patch)[band] > 0.0;
   }
-  bool carried = false;
+  bool carried = this->Scene_.Sky() > 0.0;
   for (std::size_t cell = 0; cell < lights.Cells().size() && !carried; ++cell)
   {
     carried = lights.LeftToLines(cell);
@@ -345,6 +354,7 @@ void Solver::SolveMultiple(int band)
       lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
     }
   }
+  this->ShareOverPlates(band);
   this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
@@ -352,6 +362,52 @@ void Solver::SolveMultiple(int band)
     "each cell is crossed about 1.5 times");
   this->Say(name + "relative standard error of the veil", error,
     error <= ErrorShare * this->Options_.Tolerance ? "tolerance met" : "most sweeps reached");
+}
+
+void Solver::ShareOverPlates(int band)
+{
+  // Lines meet the cells of a sign's pattern too rarely to tell them apart, and their noise would
+  // pass for a pattern. Indirect light hardly varies over a plate that is small against the scene.
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Vec3 size = this->Scene_.Upper() - this->Scene_.Lower();
+  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  for (const Sign& sign : lights.Signs())
+  {
+    double area = 0.0;
+    bool plane = true;
+    for (const std::size_t cell : sign.Cells)
+    {
+      area += lights.CellArea(cell);
+      plane = plane && glm::dot(lights.CellNormal(cell), sign.Normal) > 1.0 - 1e-6;
+    }
+    if (!plane || area > LargestPlate * box)
+    {
+      continue;
+    }
+    for (int side = 0; side < 2; ++side)
+    {
+      const auto lanesOf = [&](std::size_t cell) -> Lanes&
+      {
+        return this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
+          band, this->Scene_.SurfacePatches() + cell, side)];
+      };
+      std::array<double, Batches> sum{};
+      for (const std::size_t cell : sign.Cells)
+      {
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          sum[batch] += lights.CellArea(cell) / area * lanesOf(cell)[batch];
+        }
+      }
+      for (const std::size_t cell : sign.Cells)
+      {
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          lanesOf(cell)[batch] = static_cast<float>(sum[batch]);
+        }
+      }
+    }
+  }
 }
 
 bool Solver::BandsEqual(int a, int b) const
@@ -384,15 +440,17 @@ LightField Solver::Run()
   this->Field_.DirectIlluminance.assign(bands * this->Field_.Patches * 2, 0.0F);
   this->Field_.MultipleIlluminance.assign(bands * this->Field_.Patches * 2, Lanes());
   const std::vector<EmitterCell>& cells = this->Scene_.Lights().Cells();
-  const bool shines = std::any_of(cells.begin(), cells.end(),
-    [this](const EmitterCell& cell)
-    {
-      return std::any_of(cell.Luminance.begin(), cell.Luminance.begin() + this->Field_.Bands,
-        [](double luminance) { return luminance > 0.0; });
-    });
+  const bool shines =
+    this->Scene_.Sky() > 0.0 ||
+    std::any_of(cells.begin(), cells.end(),
+      [this](const EmitterCell& cell)
+      {
+        return std::any_of(cell.Luminance.begin(), cell.Luminance.begin() + this->Field_.Bands,
+          [](double luminance) { return luminance > 0.0; });
+      });
   if (!shines && !this->Scene_.Smoke().Emits())
   {
-    throw Error("light field", "nothing emits light", "Add a sign, a lamp or a flame");
+    throw Error("light field", "nothing emits light", "Add a sign, a lamp, a flame or the sky");
   }
   if (!(this->Options_.Tolerance > 0.0))
   {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include <glm/gtc/constants.hpp>
 
@@ -124,19 +125,28 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, int band)
   const double crossings = boundary / box;
   double lines = crossings > 0.0 ? CrossingsPerSweep * cells / crossings : 0.0;
   double area = 0.0;
-  std::size_t reflecting = 0;
+  // The cells of a sign share their indirect light.
+  std::map<int, double> cellsOfSign;
+  for (const EmitterCell& cell : scene.Lights().Cells())
+  {
+    cellsOfSign[cell.SignId] += 1.0;
+  }
+  double reflecting = 0.0;
   for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
   {
-    if (scene.PatchReflectance(patch)[band] > 0.0)
+    if (scene.PatchReflectance(patch)[band] > 0.0 || scene.Sky() > 0.0)
     {
       area += scene.PatchArea(patch);
-      ++reflecting;
+      const int sign = patch < scene.SurfacePatches()
+                         ? -1
+                         : scene.Lights().Cells()[patch - scene.SurfacePatches()].SignId;
+      reflecting += sign < 0 ? 1.0 : 1.0 / cellsOfSign[sign];
     }
   }
   if (area > 0.0)
   {
     // Patches that are tiny against the scene are not worth a flood of lines.
-    const double wanted = CrossingsPerSweep * static_cast<double>(reflecting) * box / (2.0 * area);
+    const double wanted = CrossingsPerSweep * reflecting * box / (2.0 * area);
     lines = std::max(lines, std::min(wanted, MostLinesForPatches));
   }
   this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
@@ -156,10 +166,10 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
     if (lights.LeftToLines(cell))
     {
       const EmitterCell& emitter = lights.Cells()[cell];
-      const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
-      radiance +=
-        static_cast<float>(emitter.Luminance[this->Band_] *
-                           (emitter.Exponent > 0.0 ? std::pow(cosine, emitter.Exponent) : 1.0));
+      const double along = glm::dot(direction, lights.CellNormal(cell));
+      const double relative =
+        lights.CellLaw(cell).Relative(along < 0.0 ? -direction : direction, std::abs(along));
+      radiance += static_cast<float>(emitter.Luminance[this->Band_] * relative);
     }
   }
   return radiance;
@@ -228,7 +238,8 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
     tallies.IlluminanceTally[side] +=
       radiance - illuminanceReference[side] * static_cast<float>(1.0 / glm::pi<double>());
   };
-  float radiance = 0.0F;
+  const auto sky = static_cast<float>(this->Scene_.Sky());
+  float radiance = sky;
   for (std::size_t part = 0; part <= crossings; ++part)
   {
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
@@ -243,7 +254,7 @@ void LineSweep::TraceLine(const BatchState& state, const std::vector<float>& flu
       radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
     }
   }
-  radiance = 0.0F;
+  radiance = sky;
   for (std::size_t part = crossings + 1; part-- > 0;)
   {
     for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
@@ -348,6 +359,10 @@ double LineSweep::FirstSource() const
   {
     power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
   }
+  // The sky's light comes in through the box around the scene.
+  const Vec3 size = this->Upper_ - this->Lower_;
+  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  power += glm::pi<double>() * this->Scene_.Sky() * box;
   return power;
 }
 

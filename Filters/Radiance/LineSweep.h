@@ -46,7 +46,7 @@ public:
   void Run(BatchState& state, std::uint64_t key, const Progress& progress) const;
 
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
-  /// again of direct light, and what flames and large lights emit.
+  /// again of direct light, and what flames, large lights and the sky emit.
   double FirstSource() const;
   /// Power that they send out again of the light of a state [lm].
   double LaterSource(const BatchState& state) const;

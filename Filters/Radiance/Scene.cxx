@@ -38,6 +38,12 @@ void CheckDescription(const SceneDescription& description)
     throw Error("scene", "the single-scattering albedo is " + std::to_string(description.Albedo),
       "It must lie between 0 and 1");
   }
+  if (!(description.Sky >= 0.0) || !std::isfinite(description.Sky))
+  {
+    throw Error("scene",
+      "the luminance of the sky is " + std::to_string(description.Sky) + " cd/m2",
+      "It must be finite and not negative");
+  }
   const SurfaceMesh& mesh = description.Surfaces;
   if (mesh.TriangleCell.size() != mesh.Triangles.size())
   {

@@ -20,6 +20,8 @@ struct SceneDescription
   Spectrum ExtinctionScale = {1.0, 1.0, 1.0};
   /// Single-scattering albedo of the smoke, 0 to 1.
   double Albedo = 0.3;
+  /// Luminance that comes in from all directions where nothing is met, in all bands [cd/m2].
+  double Sky = 0.0;
   /// Smoke grids; where they overlap the one with the smaller cells counts.
   std::vector<SmokeGrid> Grids;
   /// Walls, floors, obstructions.
@@ -39,6 +41,7 @@ public:
 
   int Bands() const { return this->Description_.Bands; }
   double Albedo() const { return this->Description_.Albedo; }
+  double Sky() const { return this->Description_.Sky; }
   double ExtinctionScale(int band) const { return this->Description_.ExtinctionScale[band]; }
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return this->Shapes_; }

@@ -75,11 +75,12 @@ void BlockMeans::Add(
   }
 }
 
-double BlockMeans::DriftSince(const BlockMeans& earlier) const
+double BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
 {
   double signal = 0.0;
+  double noise = 0.0;
+  double spread = 0.0;
   double weights = 0.0;
-  int used = 0;
   for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
     const Block& block = this->Blocks_[index];
@@ -91,22 +92,24 @@ double BlockMeans::DriftSince(const BlockMeans& earlier) const
     {
       continue;
     }
-    // Blocks count by how well they are known.
-    const double variance = VarianceOf(block.Multiple, now) + VarianceOf(before, then);
-    const double weight = all * all / std::max(variance, 1e-12 * all * all);
+    // Blocks count by how well they are known, those known better than asked for all alike.
+    const double variance =
+      (VarianceOf(block.Multiple, now) + VarianceOf(before, then)) / (all * all);
+    const double weight = 1.0 / std::max(variance, resolution * resolution);
     weights += weight;
     signal += weight * (now - then) * (now - then) / (all * all);
-    ++used;
+    noise += weight * variance;
+    spread += weight * variance * weight * variance;
   }
-  if (used == 0)
+  if (weights == 0.0)
   {
     return 0.0;
   }
-  // Noise alone makes the signal `used` (times 15/13, since its variance comes from 16 batches),
-  // give or take the root of twice that.
-  constexpr double spread = (Batches - 1.0) / (Batches - 3.0);
-  const double known = std::max(0.0, signal - spread * used);
-  return std::sqrt((known + 2.0 * std::sqrt(2.0 * used)) / weights);
+  // Noise alone makes the signal the sum of the weighted variances (times 15/13, since they come
+  // from 16 batches), give or take the root of twice the sum of their squares.
+  constexpr double excess = (Batches - 1.0) / (Batches - 3.0);
+  const double known = std::max(0.0, signal - excess * noise);
+  return std::sqrt((known + 2.0 * std::sqrt(2.0 * spread)) / weights);
 }
 
 } // namespace smokevis

@@ -21,7 +21,8 @@ public:
   /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window
   /// to this one over all light of the block (or over a floor where a block lies in the dark),
   /// noise taken out.
-  double DriftSince(const BlockMeans& earlier) const;
+  /// @param resolution relative error that need not be resolved
+  double DriftSince(const BlockMeans& earlier, double resolution) const;
 
 private:
   struct Block

@@ -34,7 +34,7 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
   const std::vector<Sign>& signs = scene.Lights().Signs();
-  double brightest = 0.0;
+  double brightest = scene.Sky();
   for (const EmitterCell& cell : scene.Lights().Cells())
   {
     brightest = std::max(brightest, cell.Luminance[band]);

@@ -35,6 +35,7 @@ private:
     double SurfaceWeight = 0.0;
   };
 
+  /// Sky that shows is left out: it is exact, and would outshine what is not.
   void Add(const Scene& scene, const LightField& field, int band, const Vec3& eye,
     const Vec3& direction, double reach);
 

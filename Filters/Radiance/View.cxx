@@ -478,11 +478,12 @@ RayLight View::TraceVeil(
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const
 {
   RayLight light = this->TraceVeil(origin, direction, 0.0, hit.Distance, band);
+  const double transmittance = std::exp(-light.OpticalDepth);
   if (!hit.Found())
   {
+    light.Surface = transmittance * this->Scene_->Sky();
     return light;
   }
-  const double transmittance = std::exp(-light.OpticalDepth);
   const Vec3 point = origin + hit.Distance * direction;
   const std::size_t patch = this->Scene_->Patch(hit);
   if (hit.Emitter)
@@ -512,14 +513,24 @@ double View::Reflected(
   {
     return 0.0;
   }
+  const double illuminance = this->Illuminance(patch, side, point, normal, band, lanes);
+  for (float& value : lanes.Value)
+  {
+    value *= static_cast<float>(factor);
+  }
+  return factor * illuminance;
+}
+
+double View::Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal,
+  int band, Lanes& lanes) const
+{
   double direct = 0.0;
   for (std::size_t light = 0; light < this->Scene_->Lights().Lights().size(); ++light)
   {
     direct += this->Implementation_->Direct.Illuminance(light, point, normal)[band];
   }
-  Add(lanes, this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)],
-    static_cast<float>(factor));
-  return std::max(0.0, factor * direct + Mean(lanes));
+  lanes = this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
+  return std::max(0.0, direct + Mean(lanes));
 }
 
 double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
@@ -533,8 +544,7 @@ double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, 
   if (side == 0)
   {
     const double cosine = std::max(0.0, glm::dot(towards, front));
-    luminance +=
-      cell.Luminance[band] * (cell.Exponent > 0.0 ? std::pow(cosine, cell.Exponent) : 1.0);
+    luminance += cell.Luminance[band] * lights.CellLaw(emitter).Relative(towards, cosine);
   }
   return luminance;
 }

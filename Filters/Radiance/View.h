@@ -45,8 +45,9 @@ public:
   Hit FirstHit(const Vec3& origin, const Vec3& direction,
     double end = std::numeric_limits<double>::infinity()) const;
 
-  /// Light that arrives at the origin against the direction of the ray, which ends at `hit`.
-  /// Where the hit is an emitter cell its own luminance is included.
+  /// Light that arrives at the origin against the direction of the ray, which ends at `hit` or,
+  /// where nothing was hit, at the sky. Where the hit is an emitter cell its own luminance is
+  /// included.
   RayLight Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const;
 
   /// Only the share of that light that the smoke between two distances sends (Surface stays 0). The
@@ -59,6 +60,11 @@ public:
   /// @param lanes receives the batches of what is reflected of multiply scattered light
   double EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
     int band, Lanes& lanes) const;
+
+  /// Illuminance at a point of a side of a patch [lx].
+  /// @param lanes receives the batches of what is multiply scattered of it
+  double Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
+    Lanes& lanes) const;
 
   /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without
   /// smoke and without light.

@@ -93,7 +93,7 @@ inline Cells ReadCells(ExtinctionSource&& source, int mesh, double time,
 {
   Cells cells;
   cells.Values.resize(count, -1.0F);
-  cells.Time = source.Read(mesh, time, solid, cells.Values);
+  cells.Time = source.Read(mesh, time, TimeInterpolation::Nearest, solid, cells.Values);
   return cells;
 }
 

@@ -1,0 +1,46 @@
+#include "EmissionLaw.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// A sharper light would have every cell before it cut to pieces.
+constexpr double MostSharpness = 4.0;
+
+} // namespace
+
+EmissionLaw::EmissionLaw(const IntensityTable& table, const Vec3& axis, const Vec3& normal)
+    : Table_(&table)
+{
+  const Vec3 flat = axis - glm::dot(axis, normal) * normal;
+  if (!(glm::length(flat) > 1e-6 * glm::length(axis)))
+  {
+    throw Error("lamp", "the axis of its intensity table is parallel to its normal",
+      "Give a direction in the lamp's plane");
+  }
+  this->AxisX_ = glm::normalize(flat);
+  this->AxisY_ = glm::cross(this->AxisX_, normal);
+}
+
+double EmissionLaw::UnitFlux() const
+{
+  return this->Table_ ? glm::pi<double>() : glm::two_pi<double>() / (this->Exponent_ + 2.0);
+}
+
+double EmissionLaw::Sharpness() const
+{
+  // The steepest slope of cos^m is close to sqrt(m / e).
+  const double own = this->Table_ ? this->Table_->Sharpness()
+                                  : std::sqrt((this->Exponent_ + 1.0) / glm::e<double>());
+  return std::clamp(own, 1.0, MostSharpness);
+}
+
+} // namespace smokevis

@@ -1,0 +1,58 @@
+// How the luminance of a plate depends on the direction that it is seen from.
+#pragma once
+
+#include "IntensityTable.h"
+#include "Types.h"
+
+#include <cmath>
+
+namespace smokevis
+{
+
+/// Luminance over the plate's Luminance: a power of the cosine of the angle to the normal, or what
+/// makes the intensity that of a table.
+class EmissionLaw
+{
+public:
+  /// Lambertian.
+  EmissionLaw() = default;
+  explicit EmissionLaw(double exponent) : Exponent_(exponent) {}
+  /// Throws Error where the axis is parallel to the normal.
+  /// @param table must outlive the law
+  /// @param axis direction in the plate's plane (its part along the normal does not count) where
+  /// the table's azimuth is 0; the azimuth grows from there towards cross(axis, normal), as it does
+  /// counter-clockwise from above for a lamp that shines down
+  EmissionLaw(const IntensityTable& table, const Vec3& axis, const Vec3& normal);
+
+  /// Luminance towards a unit direction before the plate, whose cosine with the normal is given.
+  double Relative(const Vec3& towards, double cosine) const
+  {
+    if (this->Table_)
+    {
+      return cosine > 0.0 ? this->Table_->Value(glm::dot(towards, this->AxisX_),
+                              glm::dot(towards, this->AxisY_), cosine) /
+                              cosine
+                          : 0.0;
+    }
+    return this->Exponent_ > 0.0 ? std::pow(cosine, this->Exponent_) : 1.0;
+  }
+
+  /// Luminous flux of a unit area of unit luminance [lm]: 2 pi / (n + 2), or pi with a table.
+  double UnitFlux() const;
+  /// How fast the light changes with the angle, at least 1 [1/rad].
+  double Sharpness() const;
+  /// Whether the light of two plates with one normal can be added up.
+  bool operator==(const EmissionLaw& other) const
+  {
+    return this->Exponent_ == other.Exponent_ && this->Table_ == other.Table_ &&
+           this->AxisX_ == other.AxisX_;
+  }
+
+private:
+  double Exponent_ = 0.0;
+  const IntensityTable* Table_ = nullptr;
+  Vec3 AxisX_{0.0};
+  Vec3 AxisY_{0.0};
+};
+
+} // namespace smokevis
