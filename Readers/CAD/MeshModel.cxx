@@ -1,6 +1,7 @@
 // Reads meshes through assimp.
 #include "MeshModel.h"
 
+#include "ColladaNumbers.h"
 #include "CrashGuard.h"
 #include "Errors.h"
 #include "FileHeader.h"
@@ -346,6 +347,10 @@ void ReadMeshModel(const std::string& fileName, const CadFormat& format, const C
   if (format.Name == "PLY")
   {
     CheckPlyHeader(fileName);
+  }
+  else if (format.Name == "COLLADA")
+  {
+    CheckColladaNumbers(fileName);
   }
   std::set<std::string> missing;
   auto importer = std::make_unique<Assimp::Importer>();
