@@ -1,6 +1,7 @@
 #include "vtkFDSWalls.h"
 
 #include "SmvFile.h"
+#include "SrgbColor.h"
 #include "WallBuilder.h"
 
 #include "vtkCellArray.h"
