@@ -12,6 +12,7 @@ smokevisibility_packages=(
   libgl2ps-dev libglew-dev libglvnd-dev libjsoncpp-dev libproj-dev libpugixml-dev libsqlite3-dev
   libeigen3-dev libxt-dev nlohmann-json3-dev protobuf-compiler libprotobuf-dev libfmt-dev zlib1g-dev
   libembree-dev libglm-dev libopenexr-dev python3-imath libtbb-dev libgtest-dev libgmock-dev
+  libassimp-dev libocct-data-exchange-dev
   xvfb xauth)
 
 smokevisibility_say()

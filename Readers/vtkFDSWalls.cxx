@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "GeomFile.h"
 #include "SmvFile.h"
+#include "SrgbColor.h"
 #include "WallBuilder.h"
 
 #include "vtkCellArray.h"
