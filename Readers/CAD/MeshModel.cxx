@@ -1,8 +1,11 @@
 // Reads meshes through assimp.
 #include "MeshModel.h"
 
+#include "ColladaNumbers.h"
+#include "CrashGuard.h"
 #include "Errors.h"
 #include "FileHeader.h"
+#include "PlyHeader.h"
 #include "SrgbColor.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -18,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <set>
 
 namespace smokevis
@@ -340,22 +344,39 @@ Matrix ReadHeader(
 void ReadMeshModel(const std::string& fileName, const CadFormat& format, const CadOptions& options,
   Progress& progress, CadModel& model)
 {
+  if (format.Name == "PLY")
+  {
+    CheckPlyHeader(fileName);
+  }
+  else if (format.Name == "COLLADA")
+  {
+    CheckColladaNumbers(fileName);
+  }
   std::set<std::string> missing;
-  Assimp::Importer importer;
-  importer.SetIOHandler(new ImportFiles(missing));
-  importer.SetProgressHandler(new ImportProgress(progress));
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
-  const aiScene* const scene =
-    importer.ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+  auto importer = std::make_unique<Assimp::Importer>();
+  importer->SetIOHandler(new ImportFiles(missing));
+  importer->SetProgressHandler(new ImportProgress(progress));
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  const aiScene* scene = nullptr;
+  const std::string failure = CrashGuard().Run(
+    [&]() {
+      scene = importer->ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+    });
+  std::string why = failure.empty() ? importer->GetErrorString() : failure;
+  if (!failure.empty())
+  {
+    // It was left in the middle of its work: deleting it would follow the same pointers again.
+    static_cast<void>(importer.release());
+    scene = nullptr;
+  }
   if (progress.ShouldStop())
   {
     return;
   }
   if (!scene || !scene->mRootNode)
   {
-    std::string why = importer.GetErrorString();
     why.erase(why.find_last_not_of(". \n") + 1);
     throw Error(fileName,
       "it cannot be read as " + std::string(format.Name) + (why.empty() ? "" : " (" + why + ")"),

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <random>
 
 namespace smokevis::test
 {
@@ -421,7 +422,8 @@ TEST(CadErrors, NameTheFileAndTheRemedy)
 TEST(CadErrors, TruncatedFilesEndInAModelOrAnError)
 {
   const Folder folder("cad-truncated");
-  for (const char* const name : {"kiosk.step", "kiosk.igs", "kiosk.glb", "kiosk.3ds", "kiosk.stl"})
+  for (const char* const name :
+    {"kiosk.step", "kiosk.igs", "kiosk.glb", "kiosk.3ds", "kiosk.stl", "kiosk.ifc"})
   {
     const std::string whole = Bytes(Samples + name);
     for (const double part : {0.1, 0.4, 0.7, 0.95})
@@ -438,6 +440,51 @@ TEST(CadErrors, TruncatedFilesEndInAModelOrAnError)
       }
     }
   }
+}
+
+TEST(CadErrors, DamagedFilesEndInAModelOrAnError)
+{
+  // Of one damaged byte in three, the libraries follow an invalid address.
+  const Folder folder("cad-damaged");
+  std::mt19937 random(7);
+  for (const char* const name : {"kiosk.step", "kiosk.igs", "kiosk.ifc", "kiosk.ply", "kiosk.dae"})
+  {
+    const std::string whole = Bytes(Samples + name);
+    for (int i = 0; i < 20; ++i)
+    {
+      std::string damaged = whole;
+      damaged.at(random() % whole.size()) = static_cast<char>(random());
+      damaged.erase(random() % whole.size(), i % 4);
+      const std::string file = folder.Write(name, damaged);
+      try
+      {
+        EXPECT_LE(Read(file).Triangles.size(), 16U);
+      }
+      catch (const Error& error)
+      {
+        EXPECT_THAT(error.what(), testing::HasSubstr(file));
+      }
+    }
+  }
+}
+
+TEST(CadErrors, PlyHeadersAreNotBelieved)
+{
+  const Folder folder("cad-ply");
+  const std::string ply = Bytes(Samples + "kiosk.ply");
+  const auto changed = [&](const std::string& from, const std::string& to)
+  { return Message(folder.Write("a.ply", Replaced(ply, from, to))); };
+  EXPECT_THAT(changed("element face 8", "element face 1000000000"),
+    testing::HasSubstr("claims elements of at least 2e+09 bytes"));
+  EXPECT_THAT(changed("element vertex 16", "element vertex 9000000000000000000"),
+    testing::HasSubstr("claims elements"));
+  EXPECT_THAT(changed("element vertex 16", "element vertex -1"), testing::HasSubstr("line 4"));
+  EXPECT_THAT(changed("property float nx", "propert# float nx"), testing::HasSubstr("line 8"));
+  EXPECT_THAT(changed("property float nx", "property floaty nx"), testing::HasSubstr("line 8"));
+  EXPECT_THAT(changed("end_header\n", "end_heade"), testing::HasSubstr("no keyword"));
+  EXPECT_THAT(changed("format ascii", "format binary"), testing::HasSubstr("'binary'"));
+  EXPECT_THAT(Message(folder.Write("b.ply", ply.substr(0, ply.find("end_header")))),
+    testing::HasSubstr("no end"));
 }
 
 TEST(CadErrors, StopsWhenAsked)
