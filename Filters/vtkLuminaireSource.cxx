@@ -83,7 +83,9 @@ int vtkLuminaireSource::RequestData(
 
     smokevis::PlateMesh mesh;
     smokevis::PlateMesh::Plate lamp;
-    lamp.Reflectance = this->Reflectance;
+    smokevis::CellLook look;
+    look.Luminance = luminance;
+    look.Reflectance.fill(this->Reflectance);
     for (int j = 0; j < this->Count[1]; ++j)
     {
       for (int i = 0; i < this->Count[0]; ++i)
@@ -93,7 +95,7 @@ int vtkLuminaireSource::RequestData(
                              (j - 0.5 * (this->Count[1] - 1)) * this->Spacing[1] * grid.Up;
         mesh.Add(lamp, {-0.5 * this->Width, 0.5 * this->Width},
           {-0.5 * this->Height, 0.5 * this->Height},
-          [&](std::size_t, std::size_t) { return luminance; });
+          [&](std::size_t, std::size_t) { return look; });
       }
     }
     output->ShallowCopy(mesh.Finish());
