@@ -50,8 +50,8 @@ void ExtinctionSource::Choose()
   {
     if (!field.File().Damage().empty())
     {
-      warnings_.push_back(
-        field.File().Path() + ": " + field.File().Damage() + "; the other frames are used.");
+      warnings_.push_back(field.File().Path() + ": " + field.File().Damage() + " (" +
+                          field.Of().Label.LongLabel + "); the other frames are used.");
     }
   };
   // What could not be opened, by mesh and species: an error unless something else can be.
