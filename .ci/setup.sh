@@ -2,7 +2,7 @@
 # Usage: . .ci/setup.sh; smokevisibility_build [target...]
 
 smokevisibility_packages=(
-  cmake g++ ninja-build git
+  cmake g++ clang ninja-build git
   paraview paraview-dev python3-paraview python3-numpy python3-matplotlib
   qtbase5-dev qttools5-dev libqt5svg5-dev libqt5x11extras5-dev libqt5opengl5-dev
   qtxmlpatterns5-dev-tools libutfcpp-dev python3-dev python3-mpi4py libopenmpi-dev libxml2-dev
@@ -12,6 +12,7 @@ smokevisibility_packages=(
   libgl2ps-dev libglew-dev libglvnd-dev libjsoncpp-dev libproj-dev libpugixml-dev libsqlite3-dev
   libeigen3-dev libxt-dev nlohmann-json3-dev protobuf-compiler libprotobuf-dev libfmt-dev zlib1g-dev
   libembree-dev libglm-dev libopenexr-dev python3-imath libtbb-dev libgtest-dev libgmock-dev
+  libassimp-dev libocct-data-exchange-dev
   xvfb xauth)
 
 smokevisibility_say()

@@ -35,6 +35,8 @@ constexpr double ReferenceWavelength = 633.0;
 constexpr double DefaultAlbedo = 0.3;
 /// Patches along the diagonal of all geometry.
 constexpr double AutomaticPatches = 50.0;
+/// Ratio of sizes beyond which surfaces and smoke are likely in different units.
+constexpr double SuspiciousRatio = 100.0;
 
 using smokevis::Error;
 using smokevis::SceneBlocks;
@@ -83,6 +85,13 @@ double Diagonal(const SceneBlocks& blocks)
     }
   }
   return box.GetDiagonalLength();
+}
+
+double Diagonal(const std::vector<SurfaceBlock>& blocks)
+{
+  SceneBlocks scene;
+  scene.Surfaces = blocks;
+  return Diagonal(scene);
 }
 
 /// Cuts the blocks and drops those of which nothing is left. Returns the number of patches.
@@ -191,6 +200,26 @@ void vtkSmokeLightField::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
+void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVector* surfaces)
+{
+  SceneBlocks smokeOnly;
+  smokeOnly.Smoke = blocks.Smoke;
+  const double smoke = Diagonal(smokeOnly);
+  for (int i = 0; i < surfaces->GetNumberOfInformationObjects(); ++i)
+  {
+    const double model =
+      Diagonal(smokevis::CollectSurfaces(vtkDataObject::GetData(surfaces, i), "Surfaces"));
+    if (model > 0.0 && (model > SuspiciousRatio * smoke || smoke > SuspiciousRatio * model))
+    {
+      vtkWarningMacro(<< "Surfaces: input " << i + 1 << " is " << model
+                      << " m across and the smoke " << smoke
+                      << " m. Is one of them in millimetres? A CAD Reader has UnitScale, other "
+                      << "data the filter Transform.");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSmokeLightField::Solve(
   vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
 {
@@ -206,6 +235,7 @@ void vtkSmokeLightField::Solve(
     throw Error("Smoke", "the input holds no grid",
       "Connect a reader of smoke, or an image with Extinction 0 for clear air");
   }
+  this->WarnOfUnits(blocks, inputs[1]);
   bool smokeEmits = false;
   for (const smokevis::SmokeBlock& block : blocks.Smoke)
   {

@@ -41,6 +41,11 @@
 #include "SmokeFiltersModule.h"
 #include <vtkPartitionedDataSetCollectionAlgorithm.h>
 
+namespace smokevis
+{
+struct SceneBlocks;
+}
+
 class SMOKEFILTERS_EXPORT vtkSmokeLightField : public vtkPartitionedDataSetCollectionAlgorithm
 {
 public:
@@ -162,6 +167,9 @@ private:
   void operator=(const vtkSmokeLightField&) = delete;
 
   void CheckProperties() const;
+  /// Warns where an input of surfaces is more than a hundred times larger or smaller than the
+  /// smoke.
+  void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
   void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
 
   double Albedo = -1.0;

@@ -1,41 +1,38 @@
 #include "vtkFDSSmokeReader.h"
 
 #include "vtkFDSDeviceTable.h"
+#include "vtkFDSPieces.h"
+#include "vtkFDSPlaneSlices.h"
+#include "vtkFDSSmokeMeshes.h"
+#include "vtkFDSWalls.h"
 
 #include "Errors.h"
 #include "ExtinctionSource.h"
+#include "FlameSource.h"
 #include "SmvFile.h"
-#include "SolidCells.h"
-#include "WallBuilder.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace
@@ -46,11 +43,14 @@ enum Port
   SmokePort,
   GeometryPort,
   DevicesPort,
+  SlicesPort,
   NumberOfPorts
 };
 
 // FDS's default single-scattering albedo of smoke.
 constexpr double DefaultAlbedo = 0.3;
+// Share of the flames' light that may go astray before it is worth a warning.
+constexpr double TolerableLoss = 0.01;
 
 // Which of the things that change while the run goes are there at a time.
 std::vector<bool> ChangesAt(const smokevis::SmvFile& index, double time)
@@ -72,14 +72,6 @@ std::vector<bool> ChangesAt(const smokevis::SmvFile& index, double time)
     append(mesh.Vents);
   }
   return state;
-}
-
-vtkSmartPointer<vtkDoubleArray> Coordinates(const std::vector<double>& nodes)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetNumberOfValues(static_cast<vtkIdType>(nodes.size()));
-  std::copy(nodes.begin(), nodes.end(), array->GetPointer(0));
-  return array;
 }
 
 void AddField(vtkFieldData* fields, const char* name, double value)
@@ -105,19 +97,30 @@ vtkStandardNewMacro(vtkFDSSmokeReader);
 //------------------------------------------------------------------------------------------------
 struct vtkFDSSmokeReader::vtkInternals
 {
+  // What was loaded: to read the index again only when it or one of these properties changed.
+  struct Key
+  {
+    std::string Name;
+    std::filesystem::file_time_type Stamp;
+    std::tuple<double, double, int, int> Properties;
+
+    bool operator==(const Key&) const = default;
+  };
+
+  Key Loaded;
   std::unique_ptr<smokevis::SmvFile> Index;
   std::unique_ptr<smokevis::ExtinctionSource> Smoke;
   // Why there is no Smoke; an error only for those who ask for smoke.
   std::string SmokeProblem;
-  // What was loaded: to read the index again only when it or a property changed.
-  std::string LoadedName;
-  std::filesystem::file_time_type LoadedStamp;
-  double LoadedVisibilityFactor = 0.0;
+  std::unique_ptr<smokevis::FlameSource> Flames;
+  std::unique_ptr<smokevis::FDSPlaneSlices> Slices;
   bool WarnedOfIndex = false;
   bool WarnedOfSmoke = false;
+  bool WarnedOfFlames = false;
   // The geometry of last time, for time steps at which nothing changed.
   vtkSmartPointer<vtkPolyData> Geometry;
   std::vector<bool> GeometryChanges;
+  bool GeometryMoves = false;
   double GeometryThreshold = 0.0;
 };
 
@@ -140,14 +143,21 @@ void vtkFDSSmokeReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "TransparencyThreshold: " << this->TransparencyThreshold << "\n";
+  os << indent << "ExtinctionSource: " << this->ExtinctionSource << "\n";
+  os << indent << "MassExtinctionCoefficient: " << this->MassExtinctionCoefficient << "\n";
   os << indent << "VisibilityFactor: " << this->VisibilityFactor << "\n";
+  os << indent << "Albedo: " << this->Albedo << "\n";
+  os << indent << "TimeInterpolation: " << this->TimeInterpolation << "\n";
+  os << indent << "FlameModel: " << this->FlameModel << "\n";
+  os << indent << "LuminousEfficacy: " << this->LuminousEfficacy << "\n";
+  os << indent << "ReadPlaneSlices: " << this->ReadPlaneSlices << "\n";
 }
 
 //------------------------------------------------------------------------------------------------
 int vtkFDSSmokeReader::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  static constexpr const char* types[NumberOfPorts] = {
-    "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkTable"};
+  static constexpr const char* types[NumberOfPorts] = {"vtkPartitionedDataSetCollection",
+    "vtkPolyData", "vtkTable", "vtkPartitionedDataSetCollection"};
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -174,6 +184,13 @@ int vtkFDSSmokeReader::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::Refresh()
+{
+  *this->Internals = vtkInternals();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkFDSSmokeReader::LoadIndex()
 {
   if (!this->FileName || !*this->FileName)
@@ -181,27 +198,35 @@ void vtkFDSSmokeReader::LoadIndex()
     throw smokevis::Error(
       "FDS reader", "no file name is set", "Set FileName to the run's .smv file");
   }
-  vtkInternals& own = *this->Internals;
   std::error_code problem;
-  const auto stamp = std::filesystem::last_write_time(this->FileName, problem);
-  const bool sameIndex =
-    own.Index && !problem && own.LoadedName == this->FileName && own.LoadedStamp == stamp;
-  if (sameIndex && own.LoadedVisibilityFactor == this->VisibilityFactor)
+  const vtkInternals::Key key{this->FileName,
+    std::filesystem::last_write_time(this->FileName, problem),
+    {this->VisibilityFactor, this->MassExtinctionCoefficient, this->ExtinctionSource,
+      this->FlameModel}};
+  vtkInternals& own = *this->Internals;
+  if (own.Index && !problem && own.Loaded == key)
   {
     return;
   }
   own = vtkInternals();
   own.Index = std::make_unique<smokevis::SmvFile>(this->FileName);
-  own.LoadedName = this->FileName;
-  own.LoadedStamp = stamp;
-  own.LoadedVisibilityFactor = this->VisibilityFactor;
+  own.Loaded = key;
+  own.Slices = std::make_unique<smokevis::FDSPlaneSlices>(*own.Index);
   try
   {
-    own.Smoke = std::make_unique<smokevis::ExtinctionSource>(*own.Index, this->VisibilityFactor);
+    const smokevis::SmokeOptions options{this->VisibilityFactor, this->MassExtinctionCoefficient,
+      static_cast<smokevis::SmokeSourceKind>(this->ExtinctionSource)};
+    own.Smoke = std::make_unique<smokevis::ExtinctionSource>(*own.Index, options);
   }
   catch (const smokevis::Error& error)
   {
     own.SmokeProblem = error.what();
+  }
+  if (own.Smoke && this->FlameModel != NO_FLAMES)
+  {
+    own.Flames = std::make_unique<smokevis::FlameSource>(*own.Index,
+      this->FlameModel == FLAMES_BY_TEMPERATURE ? smokevis::FlameModel::BlackBody
+                                                : smokevis::FlameModel::LuminousEfficacy);
   }
 }
 
@@ -241,12 +266,16 @@ int vtkFDSSmokeReader::RequestInformation(
   }
   const std::vector<double> steps(times.begin(), times.end());
   const std::array<double, 2> range{steps.front(), steps.back()};
-  for (const int port : {SmokePort, GeometryPort})
+  for (int port = 0; port < NumberOfPorts; ++port)
   {
     vtkInformation* info = outputVector->GetInformationObject(port);
-    info->Set(
-      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
-    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
+    info->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    if (port != DevicesPort)
+    {
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps.data(),
+        static_cast<int>(steps.size()));
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
+    }
   }
   return 1;
 }
@@ -263,7 +292,13 @@ double vtkFDSSmokeReader::SceneTime(vtkInformation* outInfo) const
     return asked ? time : own.Index->Times[0];
   }
   // Walls and smoke are of the same moment.
-  return asked ? own.Smoke->NearestTime(time) : own.Smoke->Times().front();
+  const std::vector<double>& times = own.Smoke->Times();
+  if (!asked)
+  {
+    return times.front();
+  }
+  return this->TimeInterpolation == LINEAR_IN_TIME ? std::clamp(time, times.front(), times.back())
+                                                   : own.Smoke->NearestTime(time);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -271,7 +306,6 @@ int vtkFDSSmokeReader::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   const int wanted = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
-  const auto isWanted = [wanted](int port) { return wanted < 0 || wanted == port; };
   try
   {
     this->LoadIndex();
@@ -284,24 +318,11 @@ int vtkFDSSmokeReader::RequestData(
       }
     }
     own.WarnedOfIndex = true;
-    if (isWanted(SmokePort))
+    for (int port = 0; port < NumberOfPorts; ++port)
     {
-      const double time = this->SceneTime(outputVector->GetInformationObject(SmokePort));
-      this->ReadSmoke(time, vtkPartitionedDataSetCollection::GetData(outputVector, SmokePort));
-    }
-    if (isWanted(GeometryPort))
-    {
-      const double time = this->SceneTime(outputVector->GetInformationObject(GeometryPort));
-      this->ReadGeometry(time, vtkPolyData::GetData(outputVector, GeometryPort));
-    }
-    if (isWanted(DevicesPort))
-    {
-      vtkTable* devices = vtkTable::GetData(outputVector, DevicesPort);
-      for (const std::string& missing : smokevis::ReadDeviceTable(*own.Index, devices))
+      if (wanted < 0 || wanted == port)
       {
-        vtkWarningMacro(<< missing
-                        << ": the device table is missing, so Devices is empty. Copy the "
-                        << "file that the index names beside the index.");
+        this->ReadPort(port, outputVector->GetInformationObject(port));
       }
     }
   }
@@ -314,128 +335,259 @@ int vtkFDSSmokeReader::RequestData(
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkFDSSmokeReader::ReadSmoke(double time, vtkPartitionedDataSetCollection* output)
+void vtkFDSSmokeReader::ReadPort(int port, vtkInformation* outInfo)
+{
+  switch (port)
+  {
+  case SmokePort:
+    this->ReadSmoke(outInfo);
+    break;
+  case GeometryPort:
+    this->ReadGeometry(outInfo);
+    break;
+  case DevicesPort:
+    this->ReadDevices(outInfo);
+    break;
+  default:
+    this->ReadSlices(outInfo);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
 {
   vtkInternals& own = *this->Internals;
   if (!own.Smoke)
   {
     throw std::runtime_error(own.SmokeProblem);
   }
-  for (const std::string& warning : own.Smoke->Warnings())
+  const auto warn = [this](const std::vector<std::string>& warnings, bool& warned)
   {
-    if (!own.WarnedOfSmoke)
+    for (const std::string& warning : warnings)
     {
-      vtkWarningMacro(<< warning);
+      if (!warned)
+      {
+        vtkWarningMacro(<< warning);
+      }
+    }
+    warned = true;
+  };
+  warn(own.Smoke->Warnings(), own.WarnedOfSmoke);
+
+  const bool flames = own.Flames && own.Flames->HasData();
+  smokevis::SmokeRequest request;
+  request.Index = own.Index.get();
+  request.Smoke = own.Smoke.get();
+  request.Flames = flames ? own.Flames.get() : nullptr;
+  request.Glow = this->FlameModel == FLAMES_BY_TEMPERATURE;
+  request.Efficacy = this->LuminousEfficacy;
+  request.Albedo = this->Albedo >= 0.0 ? this->Albedo : own.Index->Albedo.value_or(DefaultAlbedo);
+  request.Time = this->SceneTime(outInfo);
+  request.Interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
+
+  using Outcome = smokevis::FDSPieces::Outcome;
+  const smokevis::FDSPieces pieces(*own.Index, outInfo);
+  std::vector<smokevis::SmokeMesh> meshes;
+  std::string problem;
+  Outcome outcome = Outcome::Good;
+  try
+  {
+    meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(),
+      [this](double fraction)
+      {
+        this->UpdateProgress(fraction);
+        return !this->CheckAbort();
+      });
+    outcome = meshes.empty() && pieces.First() < pieces.End() ? Outcome::Aborted : Outcome::Good;
+  }
+  catch (const std::exception& error)
+  {
+    problem = error.what();
+    outcome = Outcome::Failed;
+  }
+  // All processes go on, or none.
+  const Outcome all = pieces.Agree(outcome);
+  if (all == Outcome::Failed)
+  {
+    throw std::runtime_error(problem.empty()
+                               ? "Another process could not read its meshes; its message says why."
+                               : problem);
+  }
+  if (all == Outcome::Aborted)
+  {
+    return;
+  }
+
+  const std::size_t count = own.Index->Meshes.size();
+  std::vector<smokevis::FlameLight> lights(count);
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    lights[pieces.First() + i] = meshes[i].Light;
+    // Meshes write their frames at the same time step, so times agree to rounding.
+    if (std::abs(meshes[i].Time - request.Time) > 1e-4 * std::max(1.0, std::abs(request.Time)))
+    {
+      vtkWarningMacro(<< "Mesh '" << own.Index->Meshes[pieces.First() + i].Name
+                      << "' has no frame at " << request.Time << " s: its frame at "
+                      << meshes[i].Time << " s is shown.");
     }
   }
-  own.WarnedOfSmoke = true;
-
   vtkNew<vtkFieldData> fields;
   AddField(fields, "ExtinctionSource", own.Smoke->Description());
-  AddField(fields, "Albedo", own.Index->Albedo.value_or(DefaultAlbedo));
-  AddField(fields, "Time", time);
+  AddField(fields, "Albedo", request.Albedo);
+  AddField(fields, "Time", request.Time);
   AddField(fields, "CHID", own.Index->Chid);
+  if (own.Flames && !own.Flames->Warnings().empty())
+  {
+    std::string lines;
+    for (const std::string& warning : own.Flames->Warnings())
+    {
+      lines += (lines.empty() ? "" : "\n") + warning;
+    }
+    warn({lines}, own.WarnedOfFlames);
+  }
+  if (flames)
+  {
+    const smokevis::FlameLight light = pieces.Sum(lights);
+    AddField(fields, "FlameSource",
+      (request.Glow ? "black body at the temperature of " : "luminous efficacy times ") +
+        own.Flames->Description());
+    AddField(fields, "FlameHeatRelease", light.HeatRelease);
+    AddField(fields, "FlameLumens", light.LumensAsked);
+    AddField(fields, "FlameLumensPlaced", light.LumensPlaced);
+    if (light.LumensPlaced < (1.0 - TolerableLoss) * light.LumensAsked && pieces.IsFirstPiece())
+    {
+      vtkWarningMacro(<< "At " << request.Time << " s the flames give " << light.LumensAsked
+                      << " lm, but only " << light.LumensPlaced
+                      << " lm are shown: in some meshes no burning cell has smoke that could emit "
+                      << "it. Put a Luminaire of the missing light there.");
+    }
+  }
 
-  // Filled aside, so that an error or an abort leaves nothing half read in the output.
-  const int count = static_cast<int>(own.Index->Meshes.size());
   vtkNew<vtkPartitionedDataSetCollection> collection;
   collection->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(count));
-  for (int i = 0; i < count; ++i)
+  std::vector<int> meshOfBlock;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
   {
-    this->UpdateProgress(static_cast<double>(i) / count);
-    if (this->CheckAbort())
-    {
-      return;
-    }
-    const smokevis::SmvMesh& mesh = own.Index->Meshes[i];
-    const std::vector<unsigned char> solid =
-      smokevis::SolidCells(mesh, smokevis::PresentObstructions(*own.Index, i, time, 0.0));
-    const auto cells = static_cast<vtkIdType>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2);
-    vtkNew<vtkFloatArray> values;
-    values->SetName("Extinction");
-    values->SetNumberOfValues(cells);
-    const double readTime = own.Smoke->Read(
-      i, time, solid, std::span<float>(values->GetPointer(0), static_cast<std::size_t>(cells)));
-    // Meshes write their frames at the same time step, so times agree to rounding.
-    if (std::abs(readTime - time) > 1e-4 * std::max(1.0, std::abs(time)))
-    {
-      vtkWarningMacro(<< "Mesh '" << mesh.Name << "' has no frame at " << time
-                      << " s: its frame at " << readTime << " s is shown.");
-    }
-    vtkNew<vtkUnsignedCharArray> solids;
-    solids->SetName("Solid");
-    solids->SetNumberOfValues(cells);
-    if (solid.empty())
-    {
-      solids->FillValue(0);
-    }
-    else
-    {
-      std::copy(solid.begin(), solid.end(), solids->GetPointer(0));
-    }
-    vtkNew<vtkRectilinearGrid> grid;
-    grid->SetDimensions(mesh.Cells(0) + 1, mesh.Cells(1) + 1, mesh.Cells(2) + 1);
-    grid->SetXCoordinates(Coordinates(mesh.Nodes[0]));
-    grid->SetYCoordinates(Coordinates(mesh.Nodes[1]));
-    grid->SetZCoordinates(Coordinates(mesh.Nodes[2]));
-    grid->GetCellData()->SetScalars(values);
-    grid->GetCellData()->AddArray(solids);
-    grid->GetFieldData()->ShallowCopy(fields);
-    const auto block = static_cast<unsigned int>(i);
-    collection->SetPartition(block, 0, grid);
-    collection->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), mesh.Name.c_str());
+    meshes[i].Grid->GetFieldData()->ShallowCopy(fields);
+    collection->SetPartition(static_cast<unsigned int>(pieces.First() + i), 0, meshes[i].Grid);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    meshOfBlock.push_back(static_cast<int>(i));
+  }
+  pieces.Complete(collection, meshOfBlock);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    collection->GetMetaData(static_cast<unsigned int>(i))
+      ->Set(vtkCompositeDataSet::NAME(), own.Index->Meshes[i].Name.c_str());
   }
   collection->GetFieldData()->ShallowCopy(fields);
+  vtkDataObject* const output = outInfo->Get(vtkDataObject::DATA_OBJECT());
   output->ShallowCopy(collection);
-  output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), request.Time);
 }
 
 //------------------------------------------------------------------------------------------------
-void vtkFDSSmokeReader::ReadGeometry(double time, vtkPolyData* output)
+void vtkFDSSmokeReader::ReadGeometry(vtkInformation* outInfo)
 {
   vtkInternals& own = *this->Internals;
+  const double time = this->SceneTime(outInfo);
+  vtkDataObject* const output = outInfo->Get(vtkDataObject::DATA_OBJECT());
+  output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  // Walls need no data but the index, which all processes have; shown they are once.
+  if (!smokevis::FDSPieces(*own.Index, outInfo).IsFirstPiece())
+  {
+    return;
+  }
   const std::vector<bool> changes = ChangesAt(*own.Index, time);
-  if (!own.Geometry || own.GeometryChanges != changes ||
+  if (!own.Geometry || own.GeometryMoves || own.GeometryChanges != changes ||
       own.GeometryThreshold != this->TransparencyThreshold)
   {
-    smokevis::WallBuilder builder(*own.Index, time, this->TransparencyThreshold);
-    const std::vector<smokevis::WallQuad> quads = builder.Build();
-    if (builder.FoundMirror())
+    own.Geometry = vtkSmartPointer<vtkPolyData>::New();
+    const smokevis::WallReport report =
+      smokevis::BuildWalls(*own.Index, time, this->TransparencyThreshold, own.Geometry);
+    if (report.Mirrors)
     {
       vtkWarningMacro(
         "The run has MIRROR boundaries: they are taken as diffuse walls, and what they "
         "would mirror is missing from images.");
     }
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> polygons;
-    vtkNew<vtkFloatArray> reflectance;
-    reflectance->SetName("Reflectance");
-    reflectance->SetNumberOfComponents(3);
-    vtkNew<vtkStringArray> names;
-    names->SetName("SurfaceName");
-    for (const smokevis::WallQuad& quad : quads)
+    for (const std::string& warning : report.Warnings)
     {
-      polygons->InsertNextCell(4);
-      for (const std::array<double, 3>& corner : quad.Corners())
-      {
-        polygons->InsertCellPoint(points->InsertNextPoint(corner.data()));
-      }
-      const smokevis::WallMaterial& material = builder.Materials()[quad.Material];
-      std::array<float, 3> linear{};
-      std::transform(material.Color.begin(), material.Color.end(), linear.begin(),
-        [](double part) { return static_cast<float>(smokevis::LinearFromSrgb(part)); });
-      reflectance->InsertNextTypedTuple(linear.data());
-      names->InsertNextValue(own.Index->Surfaces[material.Surface].Name);
+      vtkWarningMacro(<< warning);
     }
-    own.Geometry = vtkSmartPointer<vtkPolyData>::New();
-    own.Geometry->SetPoints(points);
-    own.Geometry->SetPolys(polygons);
-    own.Geometry->GetCellData()->AddArray(reflectance);
-    own.Geometry->GetCellData()->AddArray(names);
+    own.GeometryMoves = report.Moves;
     own.GeometryChanges = changes;
     own.GeometryThreshold = this->TransparencyThreshold;
   }
   output->ShallowCopy(own.Geometry);
+  output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
+{
+  vtkInternals& own = *this->Internals;
+  if (!smokevis::FDSPieces(*own.Index, outInfo).IsFirstPiece())
+  {
+    return;
+  }
+  vtkTable* const devices = vtkTable::SafeDownCast(outInfo->Get(vtkDataObject::DATA_OBJECT()));
+  for (const std::string& missing : smokevis::ReadDeviceTable(*own.Index, devices))
+  {
+    vtkWarningMacro(<< missing << ": the device table is missing, so Devices is empty. Copy the "
+                    << "file that the index names beside the index.");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::ReadSlices(vtkInformation* outInfo)
+{
+  if (!this->ReadPlaneSlices)
+  {
+    return;
+  }
+  vtkInternals& own = *this->Internals;
+  const double time = this->SceneTime(outInfo);
+  const auto interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
+  const smokevis::FDSPieces pieces(*own.Index, outInfo);
+  std::vector<smokevis::FDSPlaneSlices::Plane>& planes = own.Slices->Planes();
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(planes.size()));
+  std::vector<int> meshOfBlock;
+  std::string problems;
+  for (unsigned int block = 0; block < planes.size(); ++block)
+  {
+    smokevis::FDSPlaneSlices::Plane& plane = planes[block];
+    const int mesh = plane.Slice->Mesh;
+    meshOfBlock.push_back(mesh);
+    std::error_code missing;
+    const std::string path = own.Index->Resolve(plane.Slice->File);
+    if (mesh < pieces.First() || mesh >= pieces.End() || !std::filesystem::exists(path, missing))
+    {
+      continue;
+    }
+    try
+    {
+      collection->SetPartition(block, 0, own.Slices->Read(plane, time, interpolation));
+    }
+    catch (const std::exception& error)
+    {
+      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!problems.empty())
+  {
+    vtkWarningMacro(<< "Some 2-D slices are left out: " << problems);
+  }
+  pieces.Complete(collection, meshOfBlock);
+  for (unsigned int block = 0; block < planes.size(); ++block)
+  {
+    collection->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), planes[block].Name.c_str());
+  }
+  AddField(collection->GetFieldData(), "Time", time);
+  AddField(collection->GetFieldData(), "CHID", own.Index->Chid);
+  vtkDataObject* const output = outInfo->Get(vtkDataObject::DATA_OBJECT());
+  output->ShallowCopy(collection);
   output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
 }

@@ -1,40 +1,51 @@
 /**
  * @class vtkFDSSmokeReader
- * @brief Reads smoke, walls and device measurements of an FDS run.
+ * @brief Reads smoke, flames, walls and measurements of an FDS run.
  *
  * The input is the index that FDS writes for Smokeview, CHID.smv, with the files it names beside
  * it. Files that an output does not need may be missing. An output is read only when it is asked
  * for.
  *
  * Output 0, Smoke, is a vtkPartitionedDataSetCollection with one vtkRectilinearGrid a mesh, named
- * after the mesh, with two cell arrays:
+ * after the mesh, with these cell arrays:
  *  - `Extinction` (float, 1 component): extinction coefficient K at 633 nm [1/m]; 0 in solids and
  *    where the run wrote no data.
  *  - `Solid` (unsigned char, 1 component): 1 in cells inside an obstruction that is there at that
  *    time, else 0.
+ *  - `EmittedLuminance` (float, 1 component): luminance L_emit [cd/m2] of the flames, where the run
+ *    wrote what the flame model needs.
  *
  * Its field data, on the collection and on each grid, are `ExtinctionSource` (string: the
- * quantities and files used), `Albedo` (double, 0 to 1: single-scattering albedo that the run
- * used, 0.3 where the index does not say), `Time` (double: time of the frame [s]) and `CHID`
- * (string).
+ * quantities and files used), `Albedo` (double, 0 to 1: single-scattering albedo), `Time` (double:
+ * time of the data [s]) and `CHID` (string); with flames also `FlameSource` (string: model and
+ * files), `FlameHeatRelease` [W], `FlameLumens` and `FlameLumensPlaced` [lm], each over all meshes:
+ * the light that the model asks for, and what of it the smoke of burning cells sends out.
  *
  * K comes, on each mesh and for each smoke species, from the best of what the run wrote in 3-D:
- * slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, each cell-centred
- * before node-centred; 8-bit smoke (.s3d, .s3dd) that holds density; Plot3D; slices of VISIBILITY;
- * 8-bit smoke that holds opacity. Parts of a mesh are completed by the next best. Smoke species
- * add. Of nodes, a cell gets the mean of its eight.
+ * slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, MASS FRACTION with the
+ * gas DENSITY, each cell-centred before node-centred; 8-bit smoke (.s3d, .s3dd) that holds density;
+ * Plot3D; slices of VISIBILITY; 8-bit smoke that holds opacity. Parts of a mesh are completed by
+ * the next best. Smoke species add. Of nodes, a cell gets the mean of its eight.
  *
- * Output 1, Geometry, is a vtkPolyData of rectangles with their front towards the gas: obstructions
- * and the outer boundaries of the meshes that are not open. Cell arrays:
+ * Output 1, Geometry, is a vtkPolyData with fronts towards the gas: rectangles of obstructions and
+ * of the outer boundaries of the meshes that are not open, and triangles of complex geometry
+ * (GEOM). Cell arrays:
  *  - `Reflectance` (float, 3 components, 0 to 1): linear red, green, blue from the sRGB colour of
- * the obstruction, else of the surface.
+ * the obstruction, else from the surface's texture, an image beside the index, or its colour.
  *  - `SurfaceName` (string): FDS's name of the surface.
  *
  * Output 2, Devices, is a vtkTable with a column `Time` [s] and one a device; its field data name
  * the columns' `Units` and the devices' `Position` [m].
  *
+ * Output 3, Slices, is a vtkPartitionedDataSetCollection with a flat vtkRectilinearGrid for each
+ * 2-D slice of each mesh whose file is there, with an array named after the quantity: on the points
+ * of a node-centred slice, on the cells of a cell-centred one, at the cells' centres.
+ *
  * The time steps are the frame times of all meshes. A requested time gives the nearest frame, the
- * earlier of two equally near; obstructions are shown as they are at that frame's time.
+ * earlier of two equally near, or is interpolated; obstructions are shown as they are at that time.
+ *
+ * Meshes are read by several threads. In parallel runs each process reads its share of the meshes;
+ * filters that ask for the whole, as the light field does, get it whole.
  */
 
 #ifndef vtkFDSSmokeReader_h
@@ -44,8 +55,6 @@
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
-
-class vtkPolyData;
 
 class SMOKEREADERS_EXPORT vtkFDSSmokeReader : public vtkPartitionedDataSetCollectionAlgorithm
 {
@@ -62,6 +71,11 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /**
+   * Reads the index and the frame times anew at the next update: a run may have written more.
+   */
+  void Refresh();
+
   ///@{
   /**
    * Obstructions whose opacity (alpha of their own colour, else of their surface, 0 to 1; 0 for
@@ -74,11 +88,107 @@ public:
 
   ///@{
   /**
+   * Where the extinction coefficient is to come from; the run must have written it. Default
+   * AUTOMATIC_SOURCE, the best there is, in this order.
+   */
+  enum ExtinctionSources
+  {
+    AUTOMATIC_SOURCE,
+    EXTINCTION_SLICES,
+    OPTICAL_DENSITY_SLICES,
+    DENSITY_SLICES,
+    MASS_FRACTION_SLICES,
+    DENSITY_SMOKE3D,
+    PLOT3D,
+    VISIBILITY_SLICES,
+    OPACITY_SMOKE3D
+  };
+  vtkSetClampMacro(ExtinctionSource, int, AUTOMATIC_SOURCE, OPACITY_SMOKE3D);
+  vtkGetMacro(ExtinctionSource, int);
+  ///@}
+
+  ///@{
+  /**
+   * Mass extinction coefficient Km of the smoke at 633 nm [m2/kg] to take instead of the run's own;
+   * whatever K comes from is scaled to it. 0: the run's own. Range 0 to 100000, default 0.
+   */
+  vtkSetClampMacro(MassExtinctionCoefficient, double, 0.0, 1e5);
+  vtkGetMacro(MassExtinctionCoefficient, double);
+  ///@}
+
+  ///@{
+  /**
    * Visibility factor C [1] with which the run computed VISIBILITY, S = C/K (its
    * VISIBILITY_FACTOR). Used only where VISIBILITY is all there is. Range 0.01 to 100, default 3.
    */
   vtkSetClampMacro(VisibilityFactor, double, 0.01, 100.0);
   vtkGetMacro(VisibilityFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * Single-scattering albedo of the smoke. It is put into the field data, from where the light
+   * field takes it, and says how much of the extinction emits light in flames. Below 0: the run's
+   * own, else 0.3. Range -1 to 1, default -1.
+   */
+  vtkSetClampMacro(Albedo, double, -1.0, 1.0);
+  vtkGetMacro(Albedo, double);
+  ///@}
+
+  ///@{
+  /**
+   * What is shown at a time between two frames: the nearest one, or values linear in between.
+   * Default NEAREST_FRAME.
+   */
+  enum TimeInterpolations
+  {
+    NEAREST_FRAME,
+    LINEAR_IN_TIME
+  };
+  vtkSetClampMacro(TimeInterpolation, int, NEAREST_FRAME, LINEAR_IN_TIME);
+  vtkGetMacro(TimeInterpolation, int);
+  ///@}
+
+  ///@{
+  /**
+   * The light of flames, in `EmittedLuminance`, where the run wrote in 3-D what the model needs.
+   * FLAMES_BY_HEAT_RELEASE spreads LuminousEfficacy times the heat release rate over the burning
+   * cells, in proportion to HRRPUV; of a cell of volume V come 4 pi K (1 - albedo) L_emit V lumens.
+   * FLAMES_BY_TEMPERATURE lets the smoke glow like a black body of its (flame) temperature; cells
+   * are far larger than flames are thick, and their mean temperature makes that too faint by orders
+   * of magnitude unless the mesh resolves the flames. Default FLAMES_BY_HEAT_RELEASE.
+   */
+  enum FlameModels
+  {
+    NO_FLAMES,
+    FLAMES_BY_HEAT_RELEASE,
+    FLAMES_BY_TEMPERATURE
+  };
+  vtkSetClampMacro(FlameModel, int, NO_FLAMES, FLAMES_BY_TEMPERATURE);
+  vtkGetMacro(FlameModel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Light per heat release of flames [lm/W]. Soot that radiates a fraction X of the heat release at
+   * the temperature T, with an emissivity that falls as 1/wavelength, gives X times 0.019, 0.061,
+   * 0.16, 0.36, 0.72 lm/W at 1200, 1300, 1400, 1500, 1600 K. Pool fires of plastics and sooty
+   * liquids radiate X = 0.3 to 0.4 at 1200 to 1400 K (Markstein, Radiative properties of plastics
+   * fires, Symp. Combust. 17, 1979; de Ris, Fire radiation, ibid.), that is 0.006 to 0.06 lm/W,
+   * wood and furniture up to 1500 K, 0.13 lm/W; a candle has 0.16 lm/W. Range 0 to 100, default
+   * 0.05.
+   */
+  vtkSetClampMacro(LuminousEfficacy, double, 0.0, 100.0);
+  vtkGetMacro(LuminousEfficacy, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output Slices is read. Default on.
+   */
+  vtkSetMacro(ReadPlaneSlices, bool);
+  vtkGetMacro(ReadPlaneSlices, bool);
+  vtkBooleanMacro(ReadPlaneSlices, bool);
   ///@}
 
 protected:
@@ -99,12 +209,22 @@ private:
 
   void LoadIndex();
   double SceneTime(vtkInformation* outInfo) const;
-  void ReadSmoke(double time, vtkPartitionedDataSetCollection* output);
-  void ReadGeometry(double time, vtkPolyData* output);
+  void ReadPort(int port, vtkInformation* outInfo);
+  void ReadSmoke(vtkInformation* outInfo);
+  void ReadGeometry(vtkInformation* outInfo);
+  void ReadDevices(vtkInformation* outInfo);
+  void ReadSlices(vtkInformation* outInfo);
 
   char* FileName = nullptr;
   double TransparencyThreshold = 0.5;
+  int ExtinctionSource = AUTOMATIC_SOURCE;
+  double MassExtinctionCoefficient = 0.0;
   double VisibilityFactor = 3.0;
+  double Albedo = -1.0;
+  int TimeInterpolation = NEAREST_FRAME;
+  int FlameModel = FLAMES_BY_HEAT_RELEASE;
+  double LuminousEfficacy = 0.05;
+  bool ReadPlaneSlices = true;
 
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

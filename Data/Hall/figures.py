@@ -102,7 +102,7 @@ def strip_figure(name, strip):
 def variants_figure(name, variants):
     """A row a time, a column a variant of the lighting."""
     times = list(next(iter(variants.values())))
-    figure, grid = plt.subplots(len(times), len(variants), figsize=(13, 6.2),
+    figure, grid = plt.subplots(len(times), len(variants), figsize=(4.3 * len(variants), 6.2),
                                 constrained_layout=True, sharex=True, sharey=True)
     for column, (label, maps) in enumerate(variants.items()):
         for row, when in enumerate(times):
@@ -111,7 +111,7 @@ def variants_figure(name, variants):
             grid[row, column].set_title(f"{label}, {when:g} s: visible from {share:.0f} %",
                                         fontsize=9)
     legend(figure, picture, grid, shrink=0.9)
-    figure.suptitle("The same smoke in three kinds of light: x and y in m, "
+    figure.suptitle("The same smoke in different light: x and y in m, "
                     "hatched where no sign is visible")
     figure.savefig(name, dpi=110)
     plt.close(figure)

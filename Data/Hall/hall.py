@@ -2,10 +2,11 @@
 
 Usage: pvpython --force-offscreen-rendering hall.py PLUGIN OUTPUT_FOLDER
 
-Three variants of the lighting, all with the eight exit signs lit:
+Variants of the lighting, all with the eight exit signs lit:
   dark       the signs alone, the main case;
   emergency  and emergency lamps under the ceiling;
   lit        and the hall's normal lamps instead.
+The dark hall comes without and with the light of the fire itself.
 """
 import os
 import resource
@@ -162,7 +163,7 @@ print(f"  at {LAST:g} s the tolerance of {COARSE:g} instead of {dark.Tolerance:g
       f"no contrast by more than {change:.1e}")
 figures.strip_figure(path("hall_times.png"), strip)
 
-heading("Dark, emergency and lit hall")
+heading("Dark, emergency and lit hall, and the light of the fire")
 variants = {"dark (signs only)": {when: strip[when] for when in (PARTLY, LAST)}}
 for name, lamps in (("emergency lamps", emergency), ("lit (normal lamps)", normal)):
     field = scene.light_field(name, reader, [signs, lamps], Tolerance=COARSE)
@@ -171,6 +172,19 @@ for name, lamps in (("emergency lamps", emergency), ("lit (normal lamps)", norma
     for when in (PARTLY, LAST):
         run("lit variants", variant_map, when)
         variants[name][when] = scene.values(variant_map, "Visibility")
+# The light of the fire: the same smoke, with the flames glowing.
+burning = scene.read("Smoke and fire", "Heat Release")
+glowing = scene.light_field("Light of the fire", burning, [signs], Tolerance=COARSE)
+glowing_map = scene.floor_map("Map, light of the fire", glowing)
+variants["with the fire's light"] = {}
+for when in (PARTLY, LAST):
+    run("fire's light", glowing_map, when)
+    variants["with the fire's light"][when] = scene.values(glowing_map, "Visibility")
+    fields = scene.output(burning).GetFieldData()
+    heat, lumens, placed = (fields.GetArray(key).GetValue(0) for key in (
+        "FlameHeatRelease", "FlameLumens", "FlameLumensPlaced"))
+    print(f"  the fire at {when:g} s: {heat / 1e6:.2f} MW, {lumens:.0f} lm, of which {placed:.0f} lm "
+          f"are given to smoke to emit", flush=True)
 for name, maps in variants.items():
     for when, contrast in maps.items():
         describe(f"{name}, {when:g} s", contrast)

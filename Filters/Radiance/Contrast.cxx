@@ -1,7 +1,12 @@
 #include "Contrast.h"
 
+#include "PixelMoments.h"
+#include "PlateVeil.h"
+
 #include <algorithm>
 #include <cmath>
+
+#include <glm/gtc/constants.hpp>
 
 namespace smokevis
 {
@@ -9,107 +14,12 @@ namespace smokevis
 namespace
 {
 
-/// Samples of the plate along its longer side, at least.
-constexpr double SamplesAcross = 8.0;
+/// Blocks of the plate along its longer side, at least.
+constexpr double BlocksAcross = 8.0;
+/// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
+constexpr int MostPixels = 512;
 /// Gauss-Legendre nodes on (0, 1).
 constexpr std::array<double, 3> GaussNodes = {0.11270166537925831, 0.5, 0.88729833462074169};
-/// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
-constexpr std::size_t MostColumns = 16;
-
-/// A piece of the plate as the eye sees it.
-struct Sample
-{
-  /// Solid angle, but for a common factor.
-  double Weight;
-  /// Index of the pixel of the observer's image that it falls in.
-  std::size_t Pixel;
-  bool Lit;
-  /// Luminance, a value a batch.
-  Lanes Light;
-};
-
-/// Piece of the plate before its light is known.
-struct Piece
-{
-  std::size_t Cell;
-  Vec3 Point;
-  double Weight;
-  glm::dvec2 Place;
-  bool Visible;
-};
-
-/// Mean and standard deviation over the pixels of one sign.
-struct Moments
-{
-  double Mean = 0.0;
-  double Deviation = 0.0;
-};
-
-/// Weights of the quadratic through the three Gauss nodes.
-std::array<double, 3> Quadratic(double t)
-{
-  const double a = GaussNodes[0];
-  const double b = GaussNodes[1];
-  const double c = GaussNodes[2];
-  return {(t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
-    (t - a) * (t - b) / ((c - a) * (c - b))};
-}
-
-/// Columns (or rows) of a sign's pattern along one edge of the plate.
-struct Columns
-{
-  /// Where they begin and end, 0 to 1.
-  std::vector<double> Ends;
-  double Widest = 1.0;
-
-  explicit Columns(std::vector<double> borders)
-  {
-    std::sort(borders.begin(), borders.end());
-    for (const double border : borders)
-    {
-      if (this->Ends.empty() || border - this->Ends.back() > 1e-6)
-      {
-        this->Ends.push_back(border);
-      }
-    }
-    if (this->Ends.size() > MostColumns + 1)
-    {
-      this->Ends = {0.0, 1.0};
-    }
-    this->Widest = 0.0;
-    for (std::size_t i = 1; i < this->Ends.size(); ++i)
-    {
-      this->Widest = std::max(this->Widest, this->Ends[i] - this->Ends[i - 1]);
-    }
-  }
-
-  std::size_t Count() const { return this->Ends.size() - 1; }
-  std::size_t Of(double t) const
-  {
-    return std::upper_bound(this->Ends.begin() + 1, this->Ends.end() - 1, t) -
-           (this->Ends.begin() + 1);
-  }
-  /// The two Gauss points of a column.
-  double Node(std::size_t column, int index) const
-  {
-    const double width = this->Ends[column + 1] - this->Ends[column];
-    return this->Ends[column] + width * (index == 0 ? 0.21132486540518712 : 0.78867513459481288);
-  }
-};
-
-Vec3 OnPlate(const Sign& sign, double u, double v)
-{
-  return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +
-         v * (sign.Corners[3] - sign.Corners[0]);
-}
-
-glm::dvec2 PlaceOnPlate(const Sign& sign, const Vec3& point)
-{
-  const Vec3 u = sign.Corners[1] - sign.Corners[0];
-  const Vec3 v = sign.Corners[3] - sign.Corners[0];
-  const Vec3 from = point - sign.Corners[0];
-  return {glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v)};
-}
 
 /// Angle that the segment between two points spans at the eye [rad].
 double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
@@ -123,100 +33,6 @@ double BandWeight(const View& view, int band)
 {
   return view.TheScene().Bands() == 1 ? 1.0 : PhotopicWeights[band];
 }
-
-/// Veil over the plate, in one band. Far from the plate the smoke's light varies
-/// slowly over it and is interpolated between three by three rays. Close to the plate the smoke
-/// glows in the pattern's shape, so that each column and row of it gets rays of its own.
-class PlateField
-{
-public:
-  PlateField(const View& view, const Sign& sign, const Vec3& eye, int band, const Columns& columns,
-    const Columns& rows)
-      : Columns_(columns), Rows_(rows)
-  {
-    // The pattern blurs over a distance of about its period.
-    this->Reach_ = 2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
-                           rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
-    for (int j = 0; j < 3; ++j)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        this->Far_[j][i] = this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
-      }
-    }
-    this->Near_.resize(columns.Count() * rows.Count());
-    for (std::size_t row = 0; row < rows.Count(); ++row)
-    {
-      for (std::size_t column = 0; column < columns.Count(); ++column)
-      {
-        Lanes& mean = this->Near_[row * columns.Count() + column];
-        for (const int j : {0, 1})
-        {
-          for (const int i : {0, 1})
-          {
-            const RayLight light =
-              this->Trace(view, sign, eye, band, columns.Node(column, i), rows.Node(row, j), false);
-            for (int batch = 0; batch < Batches; ++batch)
-            {
-              mean[batch] +=
-                0.25F * (static_cast<float>(light.VeilDirect) + light.VeilMultiple[batch]);
-            }
-          }
-        }
-      }
-    }
-  }
-
-  /// Adds weight times the veil at a place to the batches.
-  void Add(const glm::dvec2& place, double weight, Lanes& veil) const
-  {
-    const auto u = Quadratic(place.x);
-    const auto v = Quadratic(place.y);
-    const Lanes& near =
-      this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() + this->Columns_.Of(place.x)];
-    double steady = 0.0;
-    Lanes far;
-    for (int j = 0; j < 3; ++j)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        const double share = u[i] * v[j];
-        const RayLight& light = this->Far_[j][i];
-        steady += share * light.VeilDirect;
-        for (int batch = 0; batch < Batches; ++batch)
-        {
-          far[batch] += static_cast<float>(share) * light.VeilMultiple[batch];
-        }
-      }
-    }
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      veil[batch] +=
-        static_cast<float>(weight) * (static_cast<float>(steady) + far[batch] + near[batch]);
-    }
-  }
-
-private:
-  /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of
-  /// that.
-  RayLight Trace(const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v,
-    bool far) const
-  {
-    const Vec3 to = OnPlate(sign, u, v) - eye;
-    const double distance = glm::length(to);
-    const Vec3 direction = to / distance;
-    const double border = std::max(0.0, distance - this->Reach_);
-    return far ? view.TraceVeil(eye, direction, 0.0, border, band)
-               : view.TraceVeil(eye, direction, border, distance, band);
-  }
-
-  const Columns& Columns_;
-  const Columns& Rows_;
-  double Reach_ = 0.0;
-  std::array<std::array<RayLight, 3>, 3> Far_;
-  /// Mean over each column of each row.
-  std::vector<Lanes> Near_;
-};
 
 /// Whether the straight way from the eye ends on that cell's front.
 bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell)
@@ -235,57 +51,8 @@ bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell
   return cells[shapes.Cell(hit)].SignId == cells[cell].SignId;
 }
 
-/// Cuts the front cells of a sign into pieces small against plate and pixels.
-std::vector<Piece> CutPlate(const View& view, const Sign& sign, const Vec3& eye, double largest)
-{
-  const EmitterSet& lights = view.TheScene().Lights();
-  std::vector<Piece> pieces;
-  for (const std::size_t cell : sign.Cells)
-  {
-    const Vec3& normal = lights.CellNormal(cell);
-    const std::vector<Vec3>& vertices = lights.Cells()[cell].Vertices;
-    if (glm::dot(eye - vertices[0], normal) <= 0.0)
-    {
-      continue;
-    }
-    // A triangle is a quadrilateral with its last corner repeated; more corners are fanned.
-    for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
-    {
-      const Vec3& a = vertices[0];
-      const Vec3& b = vertices[v];
-      const Vec3& c = vertices[v + 1];
-      const Vec3& d = v + 2 < vertices.size() ? vertices[v + 2] : c;
-      const double width = std::max(glm::length(b - a), glm::length(c - d));
-      const double height = std::max(glm::length(d - a), glm::length(c - b));
-      const int across = std::clamp(static_cast<int>(std::ceil(width / largest - 1e-9)), 1, 64);
-      const int up = std::clamp(static_cast<int>(std::ceil(height / largest - 1e-9)), 1, 64);
-      for (int j = 0; j < up; ++j)
-      {
-        for (int i = 0; i < across; ++i)
-        {
-          const double s = (i + 0.5) / across;
-          const double t = (j + 0.5) / up;
-          const Vec3 point = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * d + s * c);
-          const Vec3 ds = (1.0 - t) * (b - a) + t * (c - d);
-          const Vec3 dt = (1.0 - s) * (d - a) + s * (c - b);
-          const double area = glm::length(glm::cross(ds, dt)) / (across * up);
-          const Vec3 to = eye - point;
-          const double square = glm::dot(to, to);
-          const double solid = area * glm::dot(to, normal) / (square * std::sqrt(square));
-          if (solid > 0.0)
-          {
-            pieces.push_back(
-              {cell, point, solid, PlaceOnPlate(sign, point), Sees(view, eye, point, cell)});
-          }
-        }
-      }
-    }
-  }
-  return pieces;
-}
-
-/// Whether a cell counts as lit: brighter, by itself, than half the brightest of its sign. A sign
-/// that only reflects is judged by its reflectance.
+/// Whether a cell counts as lit: as it says or, where it does not, brighter by itself than half the
+/// brightest of its sign. A sign that only reflects is judged by its reflectance.
 std::vector<bool> LitCells(const View& view, const Sign& sign)
 {
   const EmitterSet& lights = view.TheScene().Lights();
@@ -311,62 +78,375 @@ std::vector<bool> LitCells(const View& view, const Sign& sign)
   std::vector<bool> lit(lights.Cells().size(), false);
   for (const std::size_t cell : sign.Cells)
   {
-    lit[cell] = brightness[cell] > 0.5 * (brightest + darkest);
+    const int part = lights.Cells()[cell].Part;
+    lit[cell] = part < 0 ? brightness[cell] > 0.5 * (brightest + darkest) : part == 1;
   }
   return lit;
 }
 
-Moments MomentsOf(const std::vector<double>& weights, const std::vector<Lanes>& pixels, int leftOut)
+/// A plane part of a sign, with one law of emission.
+struct Facet
 {
-  // Mean of all batches, or of all but one.
-  double weight = 0.0;
-  double first = 0.0;
-  std::vector<double> values(pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i)
+  Vec3 Normal;
+  /// Its cells that face the eye.
+  std::vector<std::size_t> Cells;
+};
+
+std::vector<Facet> FacetsOf(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
+{
+  std::vector<Facet> facets;
+  for (const std::size_t cell : sign.Cells)
   {
-    double value = Mean(pixels[i]);
-    if (leftOut >= 0)
+    const Vec3& normal = lights.CellNormal(cell);
+    // Cells seen edge on in the plane of the plate have no extent there.
+    if (glm::dot(eye - lights.CellCentre(cell), normal) <= 0.0 ||
+        std::abs(glm::dot(normal, sign.Normal)) < 1e-3)
     {
-      value = (Batches * value - pixels[i][leftOut]) / (Batches - 1.0);
+      continue;
     }
-    values[i] = std::max(0.0, value);
-    weight += weights[i];
-    first += weights[i] * values[i];
+    const auto same = [&](const Facet& facet)
+    {
+      const std::size_t other = facet.Cells.front();
+      const Vec3 between = lights.CellCentre(cell) - lights.CellCentre(other);
+      return glm::dot(facet.Normal, normal) > 1.0 - 1e-9 &&
+             std::abs(glm::dot(between, normal)) < 1e-5 * sign.Radius &&
+             lights.CellLaw(cell) == lights.CellLaw(other);
+    };
+    auto facet = std::find_if(facets.begin(), facets.end(), same);
+    if (facet == facets.end())
+    {
+      facets.push_back({normal, {}});
+      facet = facets.end() - 1;
+    }
+    facet->Cells.push_back(cell);
   }
-  Moments moments;
-  moments.Mean = first / weight;
-  double second = 0.0;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-  {
-    second += weights[i] * (values[i] - moments.Mean) * (values[i] - moments.Mean);
-  }
-  moments.Deviation = std::sqrt(second / weight);
-  return moments;
+  return facets;
 }
 
-/// A ratio of the moments with its jackknife estimate, free of first-order bias, and standard
-/// error.
-void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
-  double& value, double& error)
+/// Borders of blocks along an edge: those of the pattern's columns, and more where they are longer
+/// than `largest`.
+std::vector<double> BlockBorders(const PlateColumns& columns, double largest)
 {
-  const auto ratio = [dark](const Moments& moments)
+  std::vector<double> borders = {0.0};
+  for (std::size_t column = 0; column < columns.Count(); ++column)
   {
-    const double below = moments.Mean + dark;
-    return below > 0.0 ? moments.Deviation / below : 0.0;
+    const double from = borders.back();
+    const double to = column + 1 == columns.Count() ? 1.0 : columns.Ends[column + 1];
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / largest - 1e-9)));
+    for (int part = 1; part <= parts; ++part)
+    {
+      borders.push_back(part == parts ? to : from + (to - from) * part / parts);
+    }
+  }
+  return borders;
+}
+
+PlateColumns ColumnsOf(const EmitterSet& lights, const Sign& sign, int axis)
+{
+  std::vector<double> borders;
+  for (const std::size_t cell : sign.Cells)
+  {
+    for (const Vec3& vertex : lights.Cells()[cell].Vertices)
+    {
+      borders.push_back(PlaceOnPlate(sign, vertex)[axis]);
+    }
+  }
+  return PlateColumns(std::move(borders));
+}
+
+/// One look at a sign.
+class SignLook
+{
+public:
+  SignLook(const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
+      : View_(view), Lights_(view.TheScene().Lights()), Plate_(Lights_.Signs()[sign]), Eye_(eye),
+        Observer_(observer), Bands_(view.TheScene().Bands()), Lit_(LitCells(view, Plate_)),
+        Across_(ColumnsOf(Lights_, Plate_, 0)), Up_(ColumnsOf(Lights_, Plate_, 1))
+  {
+    this->EdgeU_ = this->Plate_.Corners[1] - this->Plate_.Corners[0];
+    this->EdgeV_ = this->Plate_.Corners[3] - this->Plate_.Corners[0];
+  }
+
+  SignMeasurement Measure();
+
+private:
+  /// A plane part of the sign as the eye sees it.
+  struct Part
+  {
+    PlatePattern Pattern;
+    std::vector<SeenBlock> Blocks;
+    /// Middle of what there is of each block.
+    std::vector<glm::dvec2> Middles;
   };
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const Moments& part : parts)
+
+  std::array<int, 2> Pixels() const;
+  PlatePattern PatternOf(const Facet& facet, const std::array<int, 2>& pixels) const;
+  /// The point of a facet in front of a place on the sign's rectangle.
+  Vec3 OnFacet(const Facet& facet, const glm::dvec2& place) const;
+  /// Share of a block's places that the eye sees.
+  double VisibleShare(const Facet& facet, const PatternBlock& block) const;
+  double DensityOf(const Facet& facet, const Vec3& point) const;
+  void FindVisible(const Facet& facet, Part& part);
+  void FillFactors(
+    const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen);
+  void FillMeans(const std::vector<Part>& parts);
+
+  const View& View_;
+  const EmitterSet& Lights_;
+  const Sign& Plate_;
+  const Vec3& Eye_;
+  const Observer& Observer_;
+  int Bands_;
+  std::vector<bool> Lit_;
+  PlateColumns Across_, Up_;
+  Vec3 EdgeU_, EdgeV_;
+  std::vector<PlateVeil> Veils_;
+  /// Weights of all that faces the eye and of what it sees of that.
+  double All_ = 0.0;
+  double Seen_ = 0.0;
+  SignMeasurement Result_;
+};
+
+/// Pixels of the observer's image along both edges; none where all detail is resolved.
+std::array<int, 2> SignLook::Pixels() const
+{
+  double narrowest = 1e300;
+  for (const std::size_t cell : this->Plate_.Cells)
   {
-    sum += ratio(part);
+    const std::vector<Vec3>& vertices = this->Lights_.Cells()[cell].Vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      narrowest =
+        std::min(narrowest, Angle(this->Eye_, vertices[i], vertices[(i + 1) % vertices.size()]));
+    }
   }
-  const double mean = sum / Batches;
-  for (const Moments& part : parts)
+  const double acuity = this->Observer_.Acuity;
+  const double wide =
+    Angle(this->Eye_, OnPlate(this->Plate_, 0.0, 0.5), OnPlate(this->Plate_, 1.0, 0.5)) / acuity;
+  const double high =
+    Angle(this->Eye_, OnPlate(this->Plate_, 0.5, 0.0), OnPlate(this->Plate_, 0.5, 1.0)) / acuity;
+  if (narrowest >= acuity || std::max(wide, high) > MostPixels)
   {
-    squares += (ratio(part) - mean) * (ratio(part) - mean);
+    return {0, 0};
   }
-  value = std::max(0.0, Batches * ratio(whole) - (Batches - 1.0) * mean);
-  error = std::sqrt((Batches - 1.0) / Batches * squares);
+  return {std::max(1, static_cast<int>(wide)), std::max(1, static_cast<int>(high))};
+}
+
+PlatePattern SignLook::PatternOf(const Facet& facet, const std::array<int, 2>& pixels) const
+{
+  std::vector<PatternCell> cells;
+  for (const std::size_t index : facet.Cells)
+  {
+    const EmitterCell& emitter = this->Lights_.Cells()[index];
+    PatternCell cell;
+    for (const Vec3& vertex : emitter.Vertices)
+    {
+      cell.Corners.push_back(PlaceOnPlate(this->Plate_, vertex));
+    }
+    cell.Value[0] = 1.0;
+    for (int band = 0; band < this->Bands_; ++band)
+    {
+      cell.Value[1 + band] = emitter.Luminance[band];
+      cell.Value[1 + MaxBands + band] = emitter.Reflectance[band];
+    }
+    cell.Lit = this->Lit_[index];
+    cells.push_back(std::move(cell));
+  }
+  const double width = glm::length(this->EdgeU_);
+  const double height = glm::length(this->EdgeV_);
+  const double largest = std::max(width, height) / BlocksAcross;
+  return {cells, PatternAxis(BlockBorders(this->Across_, largest / width), pixels[0]),
+    PatternAxis(BlockBorders(this->Up_, largest / height), pixels[1])};
+}
+
+Vec3 SignLook::OnFacet(const Facet& facet, const glm::dvec2& place) const
+{
+  const Vec3 point = OnPlate(this->Plate_, place.x, place.y);
+  const Vec3 off = this->Lights_.CellCentre(facet.Cells.front()) - point;
+  return point + glm::dot(off, facet.Normal) / glm::dot(this->Plate_.Normal, facet.Normal) *
+                   this->Plate_.Normal;
+}
+
+double SignLook::VisibleShare(const Facet& facet, const PatternBlock& block) const
+{
+  double seen = 0.0;
+  double all = 0.0;
+  for (const PatternPlace& place : block.Places)
+  {
+    seen += Sees(this->View_, this->Eye_, this->OnFacet(facet, place.At), facet.Cells[place.Cell])
+              ? place.Area
+              : 0.0;
+    all += place.Area;
+  }
+  return seen / all;
+}
+
+double SignLook::DensityOf(const Facet& facet, const Vec3& point) const
+{
+  const Vec3 to = this->Eye_ - point;
+  const double square = glm::dot(to, to);
+  const double area = glm::length(glm::cross(this->EdgeU_, this->EdgeV_)) /
+                      std::abs(glm::dot(this->Plate_.Normal, facet.Normal));
+  return std::max(0.0, area * glm::dot(to, facet.Normal) / (square * std::sqrt(square)));
+}
+
+void SignLook::FillFactors(
+  const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen)
+{
+  const Vec3 point = this->OnFacet(facet, place);
+  const double weight = seen.Density * block.Sum[0];
+  const Scene& scene = this->View_.TheScene();
+  const Vec3 way = point - this->Eye_;
+  const double distance = glm::length(way);
+  const Vec3 direction = way / distance;
+  const double depth = scene.Smoke().OpticalDepth(this->Eye_, direction, 0.0, distance);
+  const std::size_t cell = facet.Cells[block.Places.front().Cell];
+  const double relative =
+    this->Lights_.CellLaw(cell).Relative(-direction, -glm::dot(direction, facet.Normal));
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    const double share = BandWeight(this->View_, band);
+    const double bandDepth = scene.ExtinctionScale(band) * depth;
+    const double transmitted = share * std::exp(-bandDepth);
+    const Lanes veil = this->Veils_[band].At(place);
+    Lanes multiple;
+    double steady = 0.0;
+    if (block.Sum[1 + MaxBands + band] > 0.0)
+    {
+      const double illuminance = this->View_.Illuminance(
+        scene.SurfacePatches() + cell, 0, point, facet.Normal, band, multiple);
+      steady = illuminance - Mean(multiple);
+    }
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      seen.Factors[batch][0] += share * veil[batch];
+      seen.Factors[batch][1 + band] = transmitted * relative;
+      seen.Factors[batch][1 + MaxBands + band] =
+        transmitted * (steady + multiple[batch]) / glm::pi<double>();
+    }
+    this->Result_.OpticalDepth += weight * share * bandDepth;
+  }
+}
+
+void SignLook::FindVisible(const Facet& facet, Part& part)
+{
+  for (const PatternBlock& block : part.Pattern.Blocks())
+  {
+    SeenBlock seen{};
+    glm::dvec2 middle(0.0);
+    if (!block.Places.empty())
+    {
+      double area = 0.0;
+      for (const PatternPlace& place : block.Places)
+      {
+        middle += place.Area * place.At;
+        area += place.Area;
+      }
+      middle /= area;
+      const double density = this->DensityOf(facet, this->OnFacet(facet, middle));
+      seen.Density = density * this->VisibleShare(facet, block);
+      this->All_ += density * block.Sum[0];
+      this->Seen_ += seen.Density * block.Sum[0];
+    }
+    part.Blocks.push_back(seen);
+    part.Middles.push_back(middle);
+  }
+}
+
+void SignLook::FillMeans(const std::vector<Part>& parts)
+{
+  double lit = 0.0;
+  double litWeight = 0.0;
+  double unlit = 0.0;
+  Lanes mean;
+  for (const Part& part : parts)
+  {
+    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    {
+      const SeenBlock& seen = part.Blocks[i];
+      const PatternBlock& block = part.Pattern.Blocks()[i];
+      const PatternVector factors = FactorsOf(seen.Factors, -1);
+      const double litPart = seen.Density * Dot(factors, block.LitSum);
+      lit += litPart;
+      litWeight += seen.Density * block.LitSum[0];
+      unlit += seen.Density * Dot(factors, block.Sum) - litPart;
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        mean[batch] +=
+          static_cast<float>(seen.Density * Dot(seen.Factors[batch], block.Sum) / this->Seen_);
+      }
+    }
+  }
+  SignMeasurement& result = this->Result_;
+  const double unlitWeight = this->Seen_ - litWeight;
+  result.LitLuminance = litWeight > 0.0 ? std::max(0.0, lit / litWeight) : 0.0;
+  result.UnlitLuminance =
+    unlitWeight > 1e-12 * this->Seen_ ? std::max(0.0, unlit / unlitWeight) : 0.0;
+  const double difference = result.LitLuminance - result.UnlitLuminance;
+  result.WebberContrast = result.UnlitLuminance > 0.0 ? difference / result.UnlitLuminance : 0.0;
+  result.UL924Contrast = result.LitLuminance > 0.0 ? difference / result.LitLuminance : 0.0;
+  result.MeanLuminanceError = StandardError(mean);
+}
+
+SignMeasurement SignLook::Measure()
+{
+  const std::vector<Facet> facets = FacetsOf(this->Lights_, this->Plate_, this->Eye_);
+  if (facets.empty())
+  {
+    return {};
+  }
+  const std::array<int, 2> pixels = this->Pixels();
+  std::vector<Part> parts;
+  for (const Facet& facet : facets)
+  {
+    parts.push_back({this->PatternOf(facet, pixels), {}, {}});
+    this->FindVisible(facet, parts.back());
+  }
+  if (!(this->Seen_ > 0.0))
+  {
+    return {};
+  }
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    this->Veils_.emplace_back(
+      this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
+  }
+  for (std::size_t index = 0; index < parts.size(); ++index)
+  {
+    Part& part = parts[index];
+    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    {
+      if (part.Blocks[i].Density > 0.0)
+      {
+        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
+      }
+    }
+  }
+  SignMeasurement& result = this->Result_;
+  result.InView = true;
+  result.VisibleFraction = this->Seen_ / this->All_;
+  result.OpticalDepth /= this->Seen_;
+  this->FillMeans(parts);
+  const auto moments = [&](int leftOut)
+  {
+    Sums sums;
+    for (const Part& part : parts)
+    {
+      AddPixels(part.Pattern, part.Blocks, leftOut, sums);
+    }
+    return sums.Get();
+  };
+  const Moments whole = moments(-1);
+  std::array<Moments, Batches> others;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    others[batch] = moments(batch);
+  }
+  result.MeanLuminance = whole.Mean;
+  Jackknife(whole, others, 0.0, result.Contrast, result.ContrastError);
+  Jackknife(whole, others, this->Observer_.DarkLuminance, result.PerceivedContrast,
+    result.PerceivedContrastError);
+  return result;
 }
 
 } // namespace
@@ -374,162 +454,7 @@ void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, 
 SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
 {
-  const EmitterSet& lights = view.TheScene().Lights();
-  const Sign& plate = lights.Signs()[sign];
-  SignMeasurement result;
-  // Pixels of the observer's image across the plate.
-  const double wide = Angle(eye, OnPlate(plate, 0.0, 0.5), OnPlate(plate, 1.0, 0.5));
-  const double high = Angle(eye, OnPlate(plate, 0.5, 0.0), OnPlate(plate, 0.5, 1.0));
-  const double width = glm::length(plate.Corners[1] - plate.Corners[0]);
-  const double height = glm::length(plate.Corners[3] - plate.Corners[0]);
-  double largest = std::max(width, height) / SamplesAcross;
-  double narrowest = 1e300;
-  for (const std::size_t cell : plate.Cells)
-  {
-    const std::vector<Vec3>& vertices = lights.Cells()[cell].Vertices;
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
-      narrowest = std::min(narrowest, Angle(eye, vertices[i], vertices[(i + 1) % vertices.size()]));
-    }
-  }
-  // Detail that the observer resolves stays apart; where some is finer, pixels of the acuity's size
-  // average what falls in them.
-  const bool resolved = !(narrowest < observer.Acuity);
-  int columns = 1;
-  int rows = 1;
-  if (!resolved)
-  {
-    columns = std::clamp(static_cast<int>(wide / observer.Acuity), 1, 4096);
-    rows = std::clamp(static_cast<int>(high / observer.Acuity), 1, 4096);
-    largest = std::min(largest, std::max(width / columns, height / rows) / 2.0);
-  }
-
-  const std::vector<Piece> pieces = CutPlate(view, plate, eye, largest);
-  double all = 0.0;
-  double seen = 0.0;
-  for (const Piece& piece : pieces)
-  {
-    all += piece.Weight;
-    seen += piece.Visible ? piece.Weight : 0.0;
-  }
-  if (!(seen > 0.0))
-  {
-    return result;
-  }
-  result.InView = true;
-  result.VisibleFraction = seen / all;
-
-  std::vector<double> bordersU;
-  std::vector<double> bordersV;
-  for (const std::size_t cell : plate.Cells)
-  {
-    for (const Vec3& vertex : lights.Cells()[cell].Vertices)
-    {
-      const glm::dvec2 place = PlaceOnPlate(plate, vertex);
-      bordersU.push_back(place.x);
-      bordersV.push_back(place.y);
-    }
-  }
-  const Columns across(std::move(bordersU));
-  const Columns up(std::move(bordersV));
-  const int bands = view.TheScene().Bands();
-  const std::vector<bool> lit = LitCells(view, plate);
-  std::vector<Sample> samples;
-  for (int band = 0; band < bands; ++band)
-  {
-    const PlateField field(view, plate, eye, band, across, up);
-    std::size_t index = 0;
-    for (const Piece& piece : pieces)
-    {
-      if (!piece.Visible)
-      {
-        continue;
-      }
-      if (band == 0)
-      {
-        const auto column = std::clamp(static_cast<int>(piece.Place.x * columns), 0, columns - 1);
-        const auto row = std::clamp(static_cast<int>(piece.Place.y * rows), 0, rows - 1);
-        const std::size_t pixel =
-          resolved ? index
-                   : static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
-        samples.push_back({piece.Weight, pixel, lit[piece.Cell], Lanes()});
-      }
-      Sample& sample = samples[index++];
-      const double weight = BandWeight(view, band);
-      field.Add(piece.Place, weight, sample.Light);
-      const Vec3 way = piece.Point - eye;
-      const double distance = glm::length(way);
-      const double depth = view.TheScene().ExtinctionScale(band) *
-                           view.TheScene().Smoke().OpticalDepth(eye, way / distance, 0.0, distance);
-      Lanes reflected;
-      const Vec3 towards = glm::normalize(eye - piece.Point);
-      const double luminance =
-        view.EmitterLuminance(piece.Cell, 0, piece.Point, towards, band, reflected);
-      const double transmitted = weight * std::exp(-depth);
-      const double steady = transmitted * (luminance - Mean(reflected));
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        sample.Light[batch] += static_cast<float>(steady + transmitted * reflected[batch]);
-      }
-      result.OpticalDepth += piece.Weight / seen * weight * depth;
-    }
-  }
-
-  // Pixels of the observer's image.
-  std::sort(samples.begin(), samples.end(),
-    [](const Sample& a, const Sample& b) { return a.Pixel < b.Pixel; });
-  std::vector<double> weights;
-  std::vector<Lanes> pixels;
-  Lanes mean;
-  Lanes litMean;
-  double litWeight = 0.0;
-  for (std::size_t begin = 0; begin < samples.size();)
-  {
-    std::size_t end = begin;
-    double weight = 0.0;
-    Lanes sum;
-    for (; end < samples.size() && samples[end].Pixel == samples[begin].Pixel; ++end)
-    {
-      const Sample& sample = samples[end];
-      const auto share = static_cast<float>(sample.Weight);
-      weight += sample.Weight;
-      litWeight += sample.Lit ? sample.Weight : 0.0;
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        sum[batch] += share * sample.Light[batch];
-        litMean[batch] += sample.Lit ? share * sample.Light[batch] : 0.0F;
-      }
-    }
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      mean[batch] += sum[batch];
-      sum[batch] /= static_cast<float>(weight);
-    }
-    weights.push_back(weight);
-    pixels.push_back(sum);
-    begin = end;
-  }
-  const double litSum = Mean(litMean);
-  const double sum = Mean(mean);
-  result.LitLuminance = litWeight > 0.0 ? std::max(0.0, litSum / litWeight) : 0.0;
-  result.UnlitLuminance =
-    seen > litWeight * (1.0 + 1e-12) ? std::max(0.0, (sum - litSum) / (seen - litWeight)) : 0.0;
-  const double difference = result.LitLuminance - result.UnlitLuminance;
-  result.WebberContrast = result.UnlitLuminance > 0.0 ? difference / result.UnlitLuminance : 0.0;
-  result.UL924Contrast = result.LitLuminance > 0.0 ? difference / result.LitLuminance : 0.0;
-  result.MeanLuminanceError = StandardError(mean) / seen;
-
-  const Moments whole = MomentsOf(weights, pixels, -1);
-  std::array<Moments, Batches> parts;
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    parts[batch] = MomentsOf(weights, pixels, batch);
-  }
-  result.MeanLuminance = whole.Mean;
-  Jackknife(whole, parts, 0.0, result.Contrast, result.ContrastError);
-  Jackknife(
-    whole, parts, observer.DarkLuminance, result.PerceivedContrast, result.PerceivedContrastError);
-  return result;
+  return SignLook(view, sign, eye, observer).Measure();
 }
 
 double PerceivedContrastBound(

@@ -513,14 +513,24 @@ double View::Reflected(
   {
     return 0.0;
   }
+  const double illuminance = this->Illuminance(patch, side, point, normal, band, lanes);
+  for (float& value : lanes.Value)
+  {
+    value *= static_cast<float>(factor);
+  }
+  return factor * illuminance;
+}
+
+double View::Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal,
+  int band, Lanes& lanes) const
+{
   double direct = 0.0;
   for (std::size_t light = 0; light < this->Scene_->Lights().Lights().size(); ++light)
   {
     direct += this->Implementation_->Direct.Illuminance(light, point, normal)[band];
   }
-  Add(lanes, this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)],
-    static_cast<float>(factor));
-  return std::max(0.0, factor * direct + Mean(lanes));
+  lanes = this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
+  return std::max(0.0, direct + Mean(lanes));
 }
 
 double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,

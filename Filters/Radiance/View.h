@@ -61,6 +61,11 @@ public:
   double EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
     int band, Lanes& lanes) const;
 
+  /// Illuminance at a point of a side of a patch [lx].
+  /// @param lanes receives the batches of what is multiply scattered of it
+  double Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
+    Lanes& lanes) const;
+
   /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without
   /// smoke and without light.
   bool InsideSolid(const Vec3& point) const;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -15,63 +17,20 @@ namespace smokevis
 namespace
 {
 
-// FDS computes OPTICAL DENSITY as K / 2.3.
-constexpr float ExtinctionPerOpticalDensity = 2.3F;
 // More negative than this [1/m] is no rounding of a transport scheme but not smoke at all.
 constexpr float MostNegative = -1e-3F;
 
-double NearestOf(const std::vector<double>& times, double time)
+// Whether two terms are of one species.
+bool Alike(const SmokeCandidate& a, const SmokeCandidate& b)
 {
-  return *std::min_element(times.begin(), times.end(),
-    [time](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
-}
-
-// The offsets of a cell's eight nodes from its first one.
-std::array<std::size_t, 8> CornerOffsets(const std::array<int, 3>& nodes)
-{
-  const auto row = static_cast<std::size_t>(nodes[0]);
-  const std::size_t layer = row * static_cast<std::size_t>(nodes[1]);
-  return {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
-}
-
-// FDS averages .s3d over all eight cells of a node, solid ones counting as clear. This takes them
-// out again: times eight over the number of gas cells. Beyond the mesh's ends the cells are taken
-// to be like those within.
-void TakeSolidsOut(
-  const SmvMesh& mesh, const std::vector<unsigned char>& solid, std::vector<float>& nodes)
-{
-  if (solid.empty())
-  {
-    return;
-  }
-  const std::array<int, 3> cells{mesh.Cells(0), mesh.Cells(1), mesh.Cells(2)};
-  std::size_t node = 0;
-  for (int k = 0; k <= cells[2]; ++k)
-  {
-    for (int j = 0; j <= cells[1]; ++j)
-    {
-      for (int i = 0; i <= cells[0]; ++i, ++node)
-      {
-        int gas = 0;
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          const auto x = static_cast<std::size_t>(std::clamp(i - (corner & 1), 0, cells[0] - 1));
-          const auto y =
-            static_cast<std::size_t>(std::clamp(j - (corner >> 1 & 1), 0, cells[1] - 1));
-          const auto z = static_cast<std::size_t>(std::clamp(k - (corner >> 2), 0, cells[2] - 1));
-          gas += solid[(z * cells[1] + y) * cells[0] + x] == 0 ? 1 : 0;
-        }
-        nodes[node] *= gas == 0 ? 0.0F : 8.0F / static_cast<float>(gas);
-      }
-    }
-  }
+  return a.Species == b.Species;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-ExtinctionSource::ExtinctionSource(const SmvFile& index, double visibilityFactor)
-    : index_(index), visibilityFactor_(visibilityFactor), terms_(index.Meshes.size())
+ExtinctionSource::ExtinctionSource(const SmvFile& index, const SmokeOptions& options)
+    : index_(index), options_(options), terms_(index.Meshes.size())
 {
   this->Choose();
   this->WarnOfGaps();
@@ -82,35 +41,62 @@ ExtinctionSource::ExtinctionSource(const SmvFile& index, double visibilityFactor
 //------------------------------------------------------------------------------------------------
 void ExtinctionSource::Choose()
 {
-  std::vector<SmokeCandidate> candidates = FindSmokeCandidates(index_);
+  std::vector<SmokeCandidate> candidates = FindSmokeCandidates(index_, options_);
   if (candidates.empty())
   {
     this->FailWithoutSmoke();
   }
+  const auto warnOfDamage = [this](const VolumeField& field)
+  {
+    if (!field.File().Damage().empty())
+    {
+      warnings_.push_back(field.File().Path() + ": " + field.File().Damage() + " (" +
+                          field.Of().Label.LongLabel + "); the other frames are used.");
+    }
+  };
+  // What could not be opened, by mesh and species: an error unless something else can be.
+  std::map<std::pair<int, std::string>, std::vector<Error>> failures;
   for (SmokeCandidate& candidate : candidates)
   {
     std::vector<Term>& chosen = terms_[candidate.Mesh];
-    const bool first = chosen.empty() || chosen.back().Of.Species != candidate.Species;
-    if (!first && chosen.back().Of.WholeMesh)
+    const bool first = chosen.empty() || !Alike(chosen.back().Field.Of(), candidate);
+    if (!first && chosen.back().Field.Of().WholeMesh)
     {
       continue;
     }
+    const std::pair<int, std::string> key(candidate.Mesh, candidate.Species);
     try
     {
-      std::unique_ptr<FrameFile> file = OpenCandidate(index_, candidate);
-      if (!file->Damage().empty())
+      Term term{VolumeField(index_, std::move(candidate)), nullptr};
+      for (const SmokeCandidate& density : term.Field.Of().Density)
       {
-        warnings_.push_back(file->Path() + ": " + file->Damage() + "; the other frames are used.");
+        term.Density = std::make_unique<VolumeField>(index_, density);
       }
-      chosen.push_back({std::move(candidate), std::move(file)});
+      warnOfDamage(term.Field);
+      if (term.Density)
+      {
+        warnOfDamage(*term.Density);
+      }
+      chosen.push_back(std::move(term));
     }
     catch (const Error& error)
     {
-      if (first)
-      {
-        throw;
-      }
-      warnings_.push_back(std::string("A part of the smoke cannot be completed: ") + error.what());
+      failures[key].push_back(error);
+    }
+  }
+  for (const auto& [key, errors] : failures)
+  {
+    const std::vector<Term>& chosen = terms_[key.first];
+    if (std::none_of(chosen.begin(), chosen.end(),
+          [species = key.second](const Term& term) { return term.Field.Of().Species == species; }))
+    {
+      throw errors.front();
+    }
+    for (const Error& error : errors)
+    {
+      warnings_.push_back(
+        std::string("The next best source of smoke is used where this is missing: ") +
+        error.what());
     }
   }
 }
@@ -123,7 +109,7 @@ void ExtinctionSource::WarnOfGaps()
   {
     for (const Term& term : terms)
     {
-      species.insert(term.Of.Species);
+      species.insert(term.Field.Of().Species);
     }
   }
   for (std::size_t mesh = 0; mesh < terms_.size(); ++mesh)
@@ -132,15 +118,15 @@ void ExtinctionSource::WarnOfGaps()
     for (const std::string& one : species)
     {
       const auto last = std::find_if(terms_[mesh].rbegin(), terms_[mesh].rend(),
-        [&one](const Term& term) { return term.Of.Species == one; });
+        [&one](const Term& term) { return term.Field.Of().Species == one; });
       if (last == terms_[mesh].rend())
       {
         warnings_.push_back("Mesh '" + name + "' has no 3-D output of the smoke" +
                             (one.empty() ? "" : " " + one) + ": it is taken as clear air there.");
       }
-      else if (!last->Of.WholeMesh)
+      else if (!last->Field.Of().WholeMesh)
       {
-        warnings_.push_back("The 3-D slices of " + last->Of.Label.LongLabel +
+        warnings_.push_back("The 3-D slices of " + last->Field.Of().Label.LongLabel +
                             " cover only a part of mesh '" + name +
                             "': its other cells are taken as clear air.");
       }
@@ -155,7 +141,8 @@ void ExtinctionSource::CollectTimes()
   {
     for (const Term& term : terms)
     {
-      times_.insert(times_.end(), term.File->FrameTimes().begin(), term.File->FrameTimes().end());
+      const std::vector<double>& times = term.Field.File().FrameTimes();
+      times_.insert(times_.end(), times.begin(), times.end());
     }
   }
   std::sort(times_.begin(), times_.end());
@@ -169,8 +156,9 @@ void ExtinctionSource::Describe()
   std::ostringstream text;
   for (std::size_t mesh = 0; mesh < terms_.size(); ++mesh)
   {
-    for (const auto& [of, file] : terms_[mesh])
+    for (const Term& term : terms_[mesh])
     {
+      const SmokeCandidate& of = term.Field.Of();
       static constexpr std::array<const char*, 3> formats{"3-D slice", "8-bit 3-D smoke", "Plot3D"};
       text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name
            << "': " << of.Label.LongLabel << " [" << of.Label.Unit << "], "
@@ -179,7 +167,7 @@ void ExtinctionSource::Describe()
       if (of.Kind == SmokeCandidate::Format::Smoke3D)
       {
         // Maybe the twin of the file that the index names.
-        text << " " << std::filesystem::path(file->Path()).filename().string();
+        text << " " << std::filesystem::path(term.Field.File().Path()).filename().string();
       }
       else
       {
@@ -188,18 +176,30 @@ void ExtinctionSource::Describe()
           text << " " << name;
         }
       }
-      if (of.MassExtinction > 0.0)
+      for (const SmokeCandidate& density : of.Density)
       {
-        text << ", Km = " << of.MassExtinction << " m2/kg";
+        text << " times " << density.Label.LongLabel << " " << density.Files.front().second;
       }
-      else if (of.Quantity == SmokeQuantity::OpticalDensity)
+      if (of.Quantity == SmokeQuantity::Density || of.Quantity == SmokeQuantity::MassFraction)
       {
-        text << ", K = 2.3 OD";
+        text << ", Km = " << of.Factor << " m2/kg";
       }
-      else if (of.Quantity == SmokeQuantity::Visibility)
+      else
       {
-        text << ", K = C/S with C = " << visibilityFactor_;
-        visibility = true;
+        if (of.Quantity == SmokeQuantity::OpticalDensity)
+        {
+          text << ", K = 2.3 OD";
+        }
+        else if (of.Quantity == SmokeQuantity::Visibility)
+        {
+          text << ", K = C/S with C = " << options_.VisibilityFactor;
+          visibility = true;
+        }
+        if (options_.MassExtinction > 0.0)
+        {
+          text << ", scaled from Km = " << of.MassExtinction << " to " << options_.MassExtinction
+               << " m2/kg";
+        }
       }
     }
   }
@@ -237,129 +237,110 @@ void ExtinctionSource::FailWithoutSmoke() const
   {
     list += (list.empty() ? "" : ", ") + one;
   }
+  const bool any = options_.Source == SmokeSourceKind::Automatic;
   throw Error(index_.Path,
-    "the run wrote no smoke in 3-D. It wrote: " + (list.empty() ? "none" : list),
-    "Add &SLCF XB=(the whole domain), QUANTITY='EXTINCTION COEFFICIENT', SPEC_ID='SOOT', "
-    "CELL_CENTERED=.TRUE. / to the FDS input and run it again");
+    "the run wrote no " + std::string(any ? "smoke in 3-D" : NameOf(options_.Source)) +
+      ". It wrote: " + (list.empty() ? "none" : list),
+    std::string(any ? "" : "Let the source be chosen automatically, or: ") +
+      "Add &SLCF XB=(the whole domain), QUANTITY='EXTINCTION COEFFICIENT', SPEC_ID='SOOT', "
+      "CELL_CENTERED=.TRUE. / to the FDS input and run it again");
 }
 
 //------------------------------------------------------------------------------------------------
 double ExtinctionSource::NearestTime(double time) const
 {
-  return NearestOf(times_, time);
+  return times_[NearestOf(times_, time)];
 }
 
 //------------------------------------------------------------------------------------------------
-double ExtinctionSource::Read(
-  int mesh, double time, const std::vector<unsigned char>& solid, std::span<float> values)
+double ExtinctionSource::Read(int mesh, double time, TimeInterpolation interpolation,
+  const std::vector<unsigned char>& solid, std::span<float> values)
 {
   std::fill(values.begin(), values.end(), 0.0F);
+  Scratch& scratch = scratch_.local();
   double readTime = time;
-  std::vector<unsigned char> covered;
-  const std::vector<Term>& terms = terms_[mesh];
+  std::vector<Term>& terms = terms_[mesh];
   for (std::size_t i = 0; i < terms.size(); ++i)
   {
-    const std::vector<double>& times = terms[i].File->FrameTimes();
-    const double frameTime = NearestOf(times, time);
-    // A restarted run writes some times again: the later writing holds.
-    const auto last = std::find(times.rbegin(), times.rend(), frameTime);
-    const std::size_t frame = static_cast<std::size_t>(times.rend() - last) - 1;
+    const SmokeCandidate& of = terms[i].Field.Of();
+    const FrameMix mix = terms[i].Field.Times().At(time, interpolation);
     // Where a mesh lacks the frame, the frame farthest from the wish is the one to tell of.
-    if (std::abs(frameTime - time) > std::abs(readTime - time))
+    if (std::abs(mix.Time - time) > std::abs(readTime - time))
     {
-      readTime = frameTime;
+      readTime = mix.Time;
     }
-    const bool begins = i == 0 || terms[i - 1].Of.Species != terms[i].Of.Species;
-    const bool ends = i + 1 == terms.size() || terms[i + 1].Of.Species != terms[i].Of.Species;
+    const bool begins = i == 0 || !Alike(terms[i - 1].Field.Of(), of);
+    const bool ends = i + 1 == terms.size() || !Alike(terms[i + 1].Field.Of(), of);
     if (begins && !ends)
     {
-      covered.assign(values.size(), 0);
+      scratch.Covered.assign(values.size(), 0);
     }
-    this->Add(terms[i], frame, solid, begins && ends ? nullptr : &covered, values);
+    this->Add(terms[i], mix, solid, !(begins && ends), scratch, values);
   }
   return readTime;
 }
 
 //------------------------------------------------------------------------------------------------
-void ExtinctionSource::Convert(
-  const Term& term, const std::vector<unsigned char>& solid, std::vector<float>& values) const
+void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<unsigned char>& solid,
+  bool usesCovered, Scratch& scratch, std::span<float> sum)
 {
-  if (term.Of.Kind == SmokeCandidate::Format::Smoke3D)
+  VolumeField& field = term.Field;
+  const SmokeCandidate& of = field.Of();
+  const auto factor = static_cast<float>(of.Factor);
+  // Values from 0 on and infinite ones are told apart by one comparison.
+  constexpr float greatest = std::numeric_limits<float>::max();
+  const std::size_t parts = mix.Weight[1] > 0.0 ? 2 : 1;
+  for (std::size_t part = 0; part < parts; ++part)
   {
-    TakeSolidsOut(index_.Meshes[term.Of.Mesh], solid, values);
-  }
-  else if (term.Of.Quantity == SmokeQuantity::Visibility)
-  {
-    const auto factor = static_cast<float>(visibilityFactor_);
-    std::transform(
-      values.begin(), values.end(), values.begin(), [factor](float s) { return factor / s; });
-  }
-  else if (term.Of.Quantity != SmokeQuantity::Extinction)
-  {
-    const float factor = term.Of.Quantity == SmokeQuantity::Density
-                           ? static_cast<float>(term.Of.MassExtinction)
-                           : ExtinctionPerOpticalDensity;
-    std::transform(
-      values.begin(), values.end(), values.begin(), [factor](float v) { return factor * v; });
-  }
-}
-
-//------------------------------------------------------------------------------------------------
-void ExtinctionSource::Add(const Term& term, std::size_t frame,
-  const std::vector<unsigned char>& solid, std::vector<unsigned char>* covered,
-  std::span<float> sum)
-{
-  std::vector<float>& values = frame_;
-  term.File->ReadFrame(frame, values);
-  this->Convert(term, solid, values);
-  const SmvMesh& mesh = index_.Meshes[term.Of.Mesh];
-  const IndexRange& r = term.Of.Range;
-  const auto nx = static_cast<std::size_t>(mesh.Cells(0));
-  const auto ny = static_cast<std::size_t>(mesh.Cells(1));
-  const std::array<std::size_t, 8> corners = CornerOffsets(term.File->Dimensions());
-  const std::size_t rowLength = corners[2];
-  const std::size_t layerLength = corners[4];
-  for (int k = r[4]; k < r[5]; ++k)
-  {
-    for (int j = r[2]; j < r[3]; ++j)
+    const std::size_t frame = mix.Frame[part];
+    const double frameTime = field.File().FrameTimes()[frame];
+    field.ReadFrame(frame, solid, scratch.Values);
+    if (of.Quantity == SmokeQuantity::Visibility)
     {
-      const float* row = values.data() + (k - r[4]) * layerLength + (j - r[2]) * rowLength;
-      const std::size_t first = (static_cast<std::size_t>(k) * ny + j) * nx;
-      for (int i = r[0]; i < r[1]; ++i)
-      {
-        const std::size_t cell = first + i;
-        if ((!solid.empty() && solid[cell] != 0) || (covered && (*covered)[cell] != 0))
-        {
-          continue;
-        }
-        const float* value = row + (i - r[0]);
-        float extinction = *value;
-        if (!term.Of.CellCentred)
-        {
-          // FDS gives a node the mean over its gas cells, and 0 without any. All eight nodes of a
-          // gas cell have one: the cell itself.
-          extinction = 0.0F;
-          for (const std::size_t corner : corners)
-          {
-            extinction += 0.125F * value[corner];
-          }
-        }
-        if (!std::isfinite(extinction) || extinction < MostNegative)
-        {
-          std::ostringstream what;
-          what << term.Of.Label.LongLabel << " gives the extinction coefficient " << extinction
-               << " 1/m in cell (" << i << ", " << j << ", " << k << ") of mesh '" << mesh.Name
-               << "' at " << term.File->FrameTimes()[frame] << " s";
-          throw Error(term.File->Path(), what.str(),
-            "The run went numerically unstable or the file is damaged: read an earlier time");
-        }
-        sum[cell] += std::max(extinction, 0.0F);
-        if (covered)
-        {
-          (*covered)[cell] = 1;
-        }
-      }
+      std::transform(scratch.Values.begin(), scratch.Values.end(), scratch.Values.begin(),
+        [factor](float s) { return factor / s; });
     }
+    else if (factor != 1.0F)
+    {
+      std::transform(scratch.Values.begin(), scratch.Values.end(), scratch.Values.begin(),
+        [factor](float v) { return factor * v; });
+    }
+    if (term.Density)
+    {
+      scratch.Density.assign(sum.size(), 0.0F);
+      // ReadCells() needs space of its own.
+      std::vector<float> space;
+      term.Density->ReadCells(frameTime, TimeInterpolation::Nearest, solid, space, scratch.Density);
+    }
+    const auto weight = static_cast<float>(mix.Weight[part]);
+    const auto fail = [&](float extinction, int i, int j, int k)
+    {
+      std::ostringstream what;
+      what << of.Label.LongLabel << " gives the extinction coefficient " << extinction
+           << " 1/m in cell (" << i << ", " << j << ", " << k << ") of mesh '"
+           << index_.Meshes[of.Mesh].Name << "' at " << frameTime << " s";
+      throw Error(field.File().Path(), what.str(),
+        "The run went numerically unstable or the file is damaged: read an earlier time");
+    };
+    const bool last = part + 1 == parts;
+    field.ForEachCell(scratch.Values, solid,
+      [&](std::size_t cell, int i, int j, int k, float value)
+      {
+        if (usesCovered && scratch.Covered[cell] != 0)
+        {
+          return;
+        }
+        const float extinction = term.Density ? value * scratch.Density[cell] : value;
+        if (!(extinction >= MostNegative && extinction <= greatest))
+        {
+          fail(extinction, i, j, k);
+        }
+        sum[cell] += weight * std::max(extinction, 0.0F);
+        if (usesCovered && last)
+        {
+          scratch.Covered[cell] = 1;
+        }
+      });
   }
 }
 

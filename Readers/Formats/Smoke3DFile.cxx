@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace smokevis
 {
@@ -25,23 +26,86 @@ std::string TwinOrSelf(const std::string& path)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-Smoke3DFile::Smoke3DFile(
-  const std::string& path, const std::array<int, 3>& nodes, double firstCell, double massExtinction)
-    : records_(TwinOrSelf(path), HeaderBytes), nodes_(nodes), firstCell_(firstCell),
-      massExtinction_(massExtinction)
+bool DecodeRuns(std::span<const unsigned char> coded, std::span<unsigned char> bytes)
 {
-  holdsDensity_ = records_.Path() != path;
-  this->ReadHeader();
-  this->IndexFrames();
-  records_.Close();
-  if (holdsDensity_)
+  const unsigned char* from = coded.data();
+  const unsigned char* const end = from + coded.size();
+  unsigned char* to = bytes.data();
+  std::size_t left = bytes.size();
+  while (from != end)
+  {
+    if (*from == RunMark)
+    {
+      if (end - from < 3 || from[2] > left)
+      {
+        return false;
+      }
+      std::memset(to, from[1], from[2]);
+      to += from[2];
+      left -= from[2];
+      from += 3;
+      continue;
+    }
+    // Most bytes between two runs stand for few cells: looking ahead pays from a handful on.
+    const auto* mark = from + 1;
+    while (mark != end && *mark != RunMark && mark - from < 16)
+    {
+      ++mark;
+    }
+    if (mark != end && *mark != RunMark)
+    {
+      const void* next = std::memchr(mark, RunMark, static_cast<std::size_t>(end - mark));
+      mark = next ? static_cast<const unsigned char*>(next) : end;
+    }
+    const auto length = static_cast<std::size_t>(mark - from);
+    if (length > left)
+    {
+      return false;
+    }
+    std::memcpy(to, from, length);
+    to += length;
+    left -= length;
+    from = mark;
+  }
+  return left == 0;
+}
+
+//------------------------------------------------------------------------------------------------
+Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes, double firstCell,
+  const std::string& what)
+    : records_(TwinOrSelf(path), HeaderBytes, what), nodes_(nodes), firstCell_(firstCell),
+      scale_(records_.Path() != path ? Scale::Density : Scale::Opacity)
+{
+  this->Open();
+  if (scale_ == Scale::Density)
   {
     this->ReadGreatestDensities(path + ".sz");
   }
   if (times_.empty())
   {
-    throw Error(records_.Path(),
-      "the 3-D smoke file holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
+    throw Error(records_.Path(), "the " + what + " holds no whole frame: " + damage_,
+      "Wait until the run has written one, or run FDS again");
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes,
+  const std::array<double, 2>& range, const std::string& what)
+    : records_(path, HeaderBytes, what), nodes_(nodes), range_(range), scale_(Scale::Range)
+{
+  this->Open();
+}
+
+//------------------------------------------------------------------------------------------------
+void Smoke3DFile::Open()
+{
+  this->ReadHeader();
+  this->IndexFrames();
+  records_.Close();
+  if (times_.empty())
+  {
+    throw Error(records_.At(HeaderBytes + FortranRecords::MarkerBytes),
+      "the " + records_.What() + " holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
       "Wait until the run has written one, or run FDS again");
   }
 }
@@ -52,7 +116,7 @@ bool Smoke3DFile::HoldsDensity(const std::string& path)
   try
   {
     std::array<int, 8> header{};
-    FortranRecords(TwinOrSelf(path), HeaderBytes).Read(0, std::span<int>(header));
+    FortranRecords(TwinOrSelf(path), HeaderBytes, "3-D smoke").Read(0, std::span<int>(header));
     return TwinOrSelf(path) != path || header[1] == 1;
   }
   catch (const Error&)
@@ -73,12 +137,16 @@ void Smoke3DFile::ReadHeader()
       "3-D smoke of version " + std::to_string(header[1]) + " is not known here",
       "Write a 3-D slice of EXTINCTION COEFFICIENT instead");
   }
-  holdsDensity_ = holdsDensity_ || header[1] == 1;
+  if (scale_ == Scale::Opacity && header[1] == 1)
+  {
+    scale_ = Scale::Density;
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     if (header[2 + 2 * axis] != 0 || header[3 + 2 * axis] != nodes_[axis] - 1)
     {
-      throw Error(records_.At(0), "its index range is not that of the mesh in the index",
+      throw Error(records_.At(0),
+        "the index range of the " + records_.What() + " is not that of the mesh in the index",
         "The two are of different runs: copy both from the same one");
     }
   }
@@ -147,7 +215,7 @@ void Smoke3DFile::ReadGreatestDensities(const std::string& path)
     {
       break;
     }
-    frames_[frame++].GreatestDensity = numbers.back();
+    frames_[frame++].Greatest = numbers.back();
   }
   if (frame < frames_.size())
   {
@@ -158,48 +226,48 @@ void Smoke3DFile::ReadGreatestDensities(const std::string& path)
 }
 
 //------------------------------------------------------------------------------------------------
+std::array<float, 256> Smoke3DFile::Values(const Frame& frame) const
+{
+  std::array<float, 256> values{};
+  for (std::size_t b = 0; b < values.size(); ++b)
+  {
+    const double part = std::min(static_cast<double>(b) / GreatestByte, 1.0);
+    // Smoke is rounded to the nearest byte, other quantities downwards: the middle of what a byte
+    // stands for is taken, except for the ends.
+    const bool end = b == 0 || static_cast<double>(b) >= GreatestByte;
+    const double middle = end ? part : (static_cast<double>(b) + 0.5) / GreatestByte;
+    // Full opacity, which no K gives, stands for anything that rounds to it.
+    const double opacity = std::min(part, 1.0 - 0.5 / GreatestByte);
+    const double value = scale_ == Scale::Density   ? part * frame.Greatest
+                         : scale_ == Scale::Opacity ? -std::log1p(-opacity) / firstCell_
+                                                    : range_[0] + middle * (range_[1] - range_[0]);
+    values[b] = static_cast<float>(value);
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------------------------
 void Smoke3DFile::ReadFrame(std::size_t frame, std::vector<float>& values)
 {
   const Frame& place = frames_[frame];
-  std::vector<unsigned char> coded(place.Bytes);
-  records_.Read(place.Offset, std::span<unsigned char>(coded));
+  coded_.resize(place.Bytes);
+  records_.Read(place.Offset, std::span<unsigned char>(coded_));
   records_.Close();
-
-  std::array<float, 256> extinction{};
-  for (std::size_t b = 0; b < extinction.size(); ++b)
-  {
-    // Full opacity, which no K gives, stands for anything that rounds to it.
-    const double part = std::min(static_cast<double>(b) / GreatestByte, 1.0);
-    const double opacity = std::min(part, 1.0 - 0.5 / GreatestByte);
-    extinction[b] =
-      static_cast<float>(holdsDensity_ ? massExtinction_ * part * place.GreatestDensity
-                                       : -std::log1p(-opacity) / firstCell_);
-  }
   const std::size_t count = static_cast<std::size_t>(nodes_[0]) * nodes_[1] * nodes_[2];
-  values.resize(count);
-  std::size_t filled = 0;
-  for (std::size_t i = 0; i < coded.size();)
-  {
-    // 255, value, count; other bytes stand for themselves.
-    const bool run = coded[i] == RunMark;
-    const std::size_t needed = run ? 3 : 1;
-    const std::size_t length = run && i + 2 < coded.size() ? coded[i + 2] : 1;
-    if (i + needed > coded.size() || length > count - filled)
-    {
-      filled = count + 1;
-      break;
-    }
-    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(filled), length,
-      extinction[coded[run ? i + 1 : i]]);
-    filled += length;
-    i += needed;
-  }
-  if (filled != count)
+  // A run of three bytes stands for 255 values at the most.
+  const bool possible = count <= static_cast<std::size_t>(place.Bytes) * 255;
+  bytes_.resize(possible ? count : 0);
+  if (!possible || !DecodeRuns(coded_, bytes_))
   {
     throw Error(records_.At(place.Offset),
-      "the compressed frame does not unpack to " + std::to_string(count) + " values",
+      "a compressed frame of the " + records_.What() + " does not unpack to " +
+        std::to_string(count) + " values",
       "The file is damaged: read another time, or run FDS again");
   }
+  const std::array<float, 256> meaning = this->Values(place);
+  values.resize(count);
+  std::transform(
+    bytes_.begin(), bytes_.end(), values.begin(), [&](unsigned char b) { return meaning[b]; });
 }
 
 } // namespace smokevis

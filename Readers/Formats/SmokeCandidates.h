@@ -1,4 +1,4 @@
-// Which files of a run could give its smoke's extinction, best first.
+// Which files of a run hold a quantity in 3-D, and how good they are for the smoke's extinction.
 #pragma once
 
 #include "FrameFile.h"
@@ -18,10 +18,37 @@ enum class SmokeQuantity
   Extinction,
   OpticalDensity,
   Density,
-  Visibility
+  MassFraction,
+  Visibility,
+  /// Something else, e.g. temperature.
+  Other
 };
 
-/// A file, or for Plot3D a file a time, with one smoke species on one mesh.
+/// Kinds of sources of extinction, from the best; Automatic stands for the best there is.
+enum class SmokeSourceKind
+{
+  Automatic,
+  ExtinctionSlice,
+  OpticalDensitySlice,
+  DensitySlice,
+  MassFractionSlice,
+  DensitySmoke3D,
+  Plot3D,
+  VisibilitySlice,
+  OpacitySmoke3D
+};
+
+/// How extinction is made of what the run wrote.
+struct SmokeOptions
+{
+  /// C of K = C/S, 3 for light-reflecting signs unless the run said otherwise.
+  double VisibilityFactor = 3.0;
+  /// Km [m2/kg] to take instead of the run's own; 0 for the run's own.
+  double MassExtinction = 0.0;
+  SmokeSourceKind Source = SmokeSourceKind::Automatic;
+};
+
+/// A file, or for Plot3D a file a time, with one quantity on one mesh.
 struct SmokeCandidate
 {
   enum class Format
@@ -40,24 +67,39 @@ struct SmokeCandidate
   /// Nodes of the range covered, and whether that is the whole mesh.
   IndexRange Range{};
   bool WholeMesh = true;
-  /// Km [m2/kg], where Quantity is Density and for Smoke3D.
+  /// Km of the species [m2/kg], as the run has it.
   double MassExtinction = 0.0;
+  /// K = Factor times the value; for VISIBILITY K = Factor / value.
+  double Factor = 1.0;
+  /// Scale of 8-bit files other than smoke.
+  std::array<double, 2> ByteRange{};
   SmvQuantity Label;
   /// Times [s] (0 unless Plot3D) and names of the files.
   std::vector<std::pair<double, std::string>> Files;
   /// Which of Plot3D's five quantities.
   int Component = 0;
-  /// Less is better, see FindSmokeCandidates().
-  int Rank = 0;
+  /// Where Quantity is MassFraction: the gas density, by which the values are to be multiplied.
+  std::vector<SmokeCandidate> Density;
+  SmokeSourceKind Source = SmokeSourceKind::Automatic;
 };
 
-/// Everything 3-D that gives extinction, by mesh, species and rank. The ranks are, from the best:
-/// slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of a smoke species, each cell-centred
-/// before node-centred; 8-bit smoke (.s3d) that holds density; Plot3D; slices of VISIBILITY; and
-/// 8-bit smoke that holds opacity.
-std::vector<SmokeCandidate> FindSmokeCandidates(const SmvFile& index);
+/// Everything 3-D that gives extinction, by mesh, species and worth. The kinds of sources are, from
+/// the best: slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of a smoke species, MASS
+/// FRACTION of one with the gas DENSITY; 8-bit smoke (.s3d) that holds density; Plot3D; slices of
+/// VISIBILITY, which is capped; and 8-bit smoke that holds opacity, which is coarse. Of each kind
+/// cell-centred comes before node-centred.
+std::vector<SmokeCandidate> FindSmokeCandidates(const SmvFile& index, const SmokeOptions& options);
+
+/// Everything 3-D with one of these long labels (in upper case), by mesh and worth: earlier labels
+/// before later ones; of each cell-centred slices, node-centred slices, 8-bit files, which have
+/// more frames, and Plot3D.
+std::vector<SmokeCandidate> FindFieldCandidates(
+  const SmvFile& index, const std::vector<std::string>& labels);
 
 /// Opens the files of @p candidate; throws Error when they are missing or damaged.
 std::unique_ptr<FrameFile> OpenCandidate(const SmvFile& index, const SmokeCandidate& candidate);
+
+/// What a kind of source is called in messages.
+const char* NameOf(SmokeSourceKind kind);
 
 } // namespace smokevis

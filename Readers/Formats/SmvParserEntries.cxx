@@ -33,7 +33,8 @@ void SmvParser::ParseSurface()
   {
     surface.Color[i] = std::clamp(numbers[3 + i], 0.0, 1.0);
   }
-  this->Next(); // texture file
+  const std::string texture = this->NextText();
+  surface.Texture = texture == "null" ? std::string() : texture;
   index_.Surfaces.push_back(std::move(surface));
 }
 
@@ -214,10 +215,6 @@ void SmvParser::ParseSlice(std::string_view line, bool cellCentred)
   const auto range = SplitIntegers(Before(After(line, '&'), '!'), 6, 6);
   if (mesh.empty() || range.size() < 6)
   {
-    if (line_ == lines_.size())
-    {
-      throw EndOfIndex();
-    }
     this->Fail("a slice needs its mesh number and six indices");
   }
   SmvSlice slice;

@@ -19,12 +19,6 @@ constexpr const char* MirrorSurface = "MIRROR";
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-double LinearFromSrgb(double part)
-{
-  return part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
-}
-
-//------------------------------------------------------------------------------------------------
 std::array<std::array<double, 3>, 4> WallQuad::Corners() const
 {
   const int b = (Axis + 1) % 3;

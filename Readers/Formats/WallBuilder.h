@@ -96,7 +96,4 @@ private:
   bool foundMirror_ = false;
 };
 
-/// Linear reflectance of an sRGB colour part (IEC 61966-2-1).
-double LinearFromSrgb(double part);
-
 } // namespace smokevis

@@ -34,6 +34,9 @@ for name, inputs in PROXIES.items():
         assert key in printed, (name, key, "is not printed")
         if printed[key] == "(none)":
             assert not default or default[0] in ("", None), (name, key, default)
+        elif isinstance(default[0], str):
+            assert printed[key] == default[0], (name, key, printed[key], default)
+            assert documentation.split("Default: ")[1].startswith(default[0]), (name, key)
         else:
             assert numpy.allclose(numbers(printed[key]), [float(d) for d in default]), \
                 (name, key, printed[key], default)

@@ -73,7 +73,7 @@ TEST(Contrast, OfStripes)
   EXPECT_NEAR(sign.Contrast, deviation / mean, 1e-4);
   EXPECT_NEAR(sign.WebberContrast, (high - low) / low, 1e-3);
   EXPECT_NEAR(sign.UL924Contrast, (high - low) / high, 1e-4);
-  EXPECT_EQ(sign.ContrastError, 0.0);
+  EXPECT_NEAR(sign.ContrastError, 0.0, 1e-12);
   EXPECT_EQ(sign.OpticalDepth, 0.0);
 }
 
@@ -131,6 +131,101 @@ TEST(Contrast, FinerThanTheEyeResolves)
   EXPECT_NEAR(far.VisibleFraction, 1.0, 1e-6);
   EXPECT_LT(far.Contrast, 0.2);
   EXPECT_NEAR(far.MeanLuminance, 500.0 / 9.0, 0.5);
+}
+
+/// Standard deviation over mean of equal pixels that average stripes, lit and dark in turn, by a
+/// sum over fine steps.
+double StripesThroughPixels(int stripes, int pixels)
+{
+  constexpr int steps = 2000;
+  double first = 0.0;
+  double second = 0.0;
+  for (int pixel = 0; pixel < pixels; ++pixel)
+  {
+    int lit = 0;
+    for (int step = 0; step < steps; ++step)
+    {
+      lit += static_cast<int>((pixel + (step + 0.5) / steps) / pixels * stripes) % 2 == 0 ? 1 : 0;
+    }
+    const double value = static_cast<double>(lit) / steps;
+    first += value / pixels;
+    second += value * value / pixels;
+  }
+  return std::sqrt(second - first * first) / first;
+}
+
+// Pixels average the pattern exactly, finer or coarser than its stripes of 1 cm. Both sides take
+// stripes cut by a pixel's edge for what they are, to the step of the sum.
+TEST(Contrast, PixelsAverageThePattern)
+{
+  SceneDescription scene = Stripes(100.0, 0.0);
+  scene.Emitters.clear();
+  constexpr int stripes = 91;
+  for (int stripe = 0; stripe < stripes; ++stripe)
+  {
+    EmitterCell cell;
+    const double y = 0.01 * (stripe - 0.5 * stripes);
+    cell.Vertices = {{0, y, -0.15}, {0, y + 0.01, -0.15}, {0, y + 0.01, 0.15}, {0, y, 0.15}};
+    cell.Luminance.fill(stripe % 2 == 0 ? 100.0 : 0.0);
+    cell.SignId = 0;
+    scene.Emitters.push_back(cell);
+  }
+  const auto view = ViewOf(std::move(scene));
+  for (const double distance : {36.0, 50.0, 90.0, 200.0, 600.0})
+  {
+    const double acuity = Plain.Acuity;
+    const double angle = 2.0 * std::atan(0.5 * 0.01 * stripes / distance);
+    const int pixels = static_cast<int>(angle / acuity);
+    EXPECT_NEAR(MeasureSign(*view, 0, {distance, 0, 0}, Plain).Contrast,
+      StripesThroughPixels(stripes, pixels), 2e-3)
+      << distance << " m, " << pixels << " pixels";
+  }
+}
+
+// A disc of triangles, without a rectangle in it: its area is exact whatever the pixels.
+TEST(Contrast, TrianglesThroughPixels)
+{
+  SceneDescription scene;
+  constexpr int corners = 24;
+  constexpr double radius = 0.3;
+  const auto corner = [](int index, double r)
+  {
+    const double angle = 2.0 * 3.14159265358979 * index / corners;
+    return Vec3(0.0, r * std::cos(angle), r * std::sin(angle));
+  };
+  for (int i = 0; i < corners; ++i)
+  {
+    for (const bool inner : {true, false})
+    {
+      EmitterCell cell;
+      cell.Vertices = {inner ? Vec3(0.0) : corner(i, 0.5 * radius),
+        corner(i, inner ? 0.5 * radius : radius), corner(i + 1, inner ? 0.5 * radius : radius)};
+      if (!inner)
+      {
+        cell.Vertices.push_back(corner(i + 1, 0.5 * radius));
+      }
+      cell.Luminance.fill(inner ? 80.0 : 20.0);
+      cell.SignId = 0;
+      scene.Emitters.push_back(cell);
+    }
+  }
+  const auto view = ViewOf(std::move(scene));
+  // A quarter of the area is bright.
+  const double mean = 0.25 * 80.0 + 0.75 * 20.0;
+  const double deviation = 60.0 * std::sqrt(0.25 * 0.75);
+  for (const double distance : {10.0, 20.0, 40.0})
+  {
+    const SignMeasurement sign = MeasureSign(*view, 0, {distance, 0, 0}, Plain);
+    EXPECT_NEAR(sign.MeanLuminance, mean, 1e-3 * mean);
+    EXPECT_NEAR(sign.LitLuminance, 80.0, 0.01);
+    EXPECT_NEAR(sign.VisibleFraction, 1.0, 1e-6);
+    // The pixels along the inner circle are mixed: a ring as wide as a pixel at most.
+    const double pixel = distance * Plain.Acuity / radius;
+    EXPECT_LT(sign.Contrast, deviation / mean);
+    EXPECT_GT(sign.Contrast, deviation / mean * (1.0 - 2.0 * pixel));
+  }
+  // Right before it every cell is resolved.
+  EXPECT_NEAR(MeasureSign(*view, 0, {2, 0, 0}, Plain).Contrast, deviation / mean, 0.01);
 }
 
 TEST(Contrast, BoundHolds)

@@ -8,6 +8,7 @@
 #include <limits>
 
 using testing::ElementsAre;
+using testing::FloatNear;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -16,8 +17,6 @@ namespace smokevis
 
 namespace
 {
-
-constexpr double C = 3.0;
 
 // A run of one mesh with 2 x 1 x 1 cells of 1 m.
 class OneMeshRun : public testing::Test
@@ -58,7 +57,7 @@ protected:
 
   std::vector<float> Read()
   {
-    ExtinctionSource source(this->Run(), C);
+    ExtinctionSource source(this->Run(), {});
     return test::ReadCells(source, 0, 0.0, {}).Values;
   }
 
@@ -87,7 +86,7 @@ TEST_F(OneMeshRun, PrefersCellsOfExtinction)
   this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {4, 5, 6});
   this->AddCells("d.sf", "SOOT DENSITY", 1, 1);
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 0.75);
-  ExtinctionSource source(this->Run(), C);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(0.5, 0.75));
   EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
   EXPECT_THAT(source.Warnings(), IsEmpty());
@@ -128,7 +127,7 @@ TEST_F(OneMeshRun, TakesFdsCoefficientForSootWithoutOne)
 TEST_F(OneMeshRun, TakesTheMostSmokeThatACappedVisibilityAllows)
 {
   this->AddCells("v.sf", "SOOT VISIBILITY", 3, 30);
-  ExtinctionSource source(this->Run(), C);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(
     test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(1.0F, testing::FloatEq(0.1F)));
   ASSERT_EQ(source.Warnings().size(), 1U);
@@ -156,7 +155,7 @@ TEST_F(OneMeshRun, PartsOfAMeshCompleteEachOther)
   };
   part("a.sf", 1, 2.0F);
   part("a again.sf", 1, 3.0F); // the same cell once more must not add
-  ExtinctionSource one(this->Run(), C);
+  ExtinctionSource one(this->Run(), {});
   EXPECT_THAT(test::ReadCells(one, 0, 0.0, {}).Values, ElementsAre(0.0F, 2.0F));
   ASSERT_EQ(one.Warnings().size(), 1U);
   EXPECT_THAT(one.Warnings()[0], HasSubstr("only a part of mesh 'm'"));
@@ -177,7 +176,7 @@ TEST_F(OneMeshRun, CompletesABetterPartFromTheWholeMesh)
 TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
 {
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", std::numeric_limits<float>::quiet_NaN(), 2);
-  ExtinctionSource source(this->Run(), C);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {1, 0}).Values, ElementsAre(0.0F, 2.0F));
 }
 
@@ -202,10 +201,11 @@ TEST_F(OneMeshRun, TellsWhatToAskFdsFor)
 TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
 {
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
-  EXPECT_THAT(this->Problem(), HasSubstr("gone.sf: the file cannot be opened"));
+  EXPECT_THAT(this->Problem(),
+    HasSubstr("gone.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'm' cannot be opened"));
   folder_.Write(
     "gone.sf", test::SliceBytes("A", {0, 1, 0, 1, 0, 1}, {{0.0F, std::vector<float>(8)}}));
-  EXPECT_THAT(this->Problem(), HasSubstr("index range is not the one"));
+  EXPECT_THAT(this->Problem(), HasSubstr("is not the one"));
 }
 
 TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
@@ -213,7 +213,7 @@ TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
   std::filesystem::resize_file(
     folder_.Path("k.sf"), std::filesystem::file_size(folder_.Path("k.sf")) - 3);
-  ExtinctionSource source(this->Run(), C);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(source.Times(), ElementsAre(0.0));
   ASSERT_EQ(source.Warnings().size(), 1U);
   EXPECT_THAT(source.Warnings()[0], HasSubstr("frame 2"));
@@ -224,14 +224,14 @@ TEST_F(OneMeshRun, SaysThatAMeshHasNoSmokeOrNoSuchFrame)
 {
   index_.Mesh("other", {1, 1, 1}, {2, 0, 0}, {3, 1, 1});
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
-  ExtinctionSource bare(this->Run(), C);
+  ExtinctionSource bare(this->Run(), {});
   ASSERT_EQ(bare.Warnings().size(), 1U);
   EXPECT_THAT(bare.Warnings()[0], HasSubstr("Mesh 'other' has no 3-D output"));
   EXPECT_THAT(test::ReadCells(bare, 1, 0.0, {}, 1).Values, ElementsAre(0.0F));
   folder_.Write("o.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(8, 5.0F)}}));
   index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "o.sf", "SOOT EXTINCTION COEFFICIENT");
-  ExtinctionSource both(this->Run(), C);
+  ExtinctionSource both(this->Run(), {});
   EXPECT_EQ(test::ReadCells(both, 0, 1.0, {}).Time, 1.0);
   EXPECT_EQ(test::ReadCells(both, 1, 1.0, {}, 1).Time, 0.0);
 }
@@ -243,9 +243,88 @@ TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
   folder_.Write("r.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
                           {{0.0F, first}, {1.0F, first}, {0.0F, second}}));
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "r.sf", "SOOT EXTINCTION COEFFICIENT");
-  ExtinctionSource source(this->Run(), C);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(source.Times(), ElementsAre(0.0, 1.0));
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(2.0F, 2.0F));
+}
+
+TEST_F(OneMeshRun, MultipliesAMassFractionByTheGasDensity)
+{
+  this->AddCells("y.sf", "SOOT MASS FRACTION", 1e-4F, 2e-4F);
+  EXPECT_THAT(this->Problem(), HasSubstr("wrote no smoke in 3-D"));
+  this->AddCells("r.sf", "DENSITY", 1.2F, 0.6F);
+  EXPECT_THAT(this->Read(), ElementsAre(FloatNear(1.044F, 1e-5F), FloatNear(1.044F, 1e-5F)));
+  ExtinctionSource source(*run_, {});
+  EXPECT_THAT(source.Description(), HasSubstr("y.sf times DENSITY r.sf, Km = 8700 m2/kg"));
+  // The density of the smoke itself is better.
+  this->AddCells("d.sf", "SOOT DENSITY", 1e-4F, 1e-4F);
+  EXPECT_THAT(this->Read(), ElementsAre(FloatNear(0.87F, 1e-5F), FloatNear(0.87F, 1e-5F)));
+}
+
+TEST_F(OneMeshRun, AnotherMassExtinctionScalesEverySource)
+{
+  index_.Text("SMOKF3D     1   8000.0\n a.s3d\n SOOT DENSITY\n rho\n kg/m3\n");
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
+  this->AddCells("d.sf", "SOOT DENSITY", 1e-4F, 2e-4F);
+  this->AddCells("o.sf", "SOOT OPTICAL DENSITY", 1, 2);
+  this->AddCells("v.sf", "SOOT VISIBILITY", 3, 1.5F);
+  const auto first = [&](SmokeSourceKind kind)
+  {
+    ExtinctionSource source(this->Run(), {3.0, 4000.0, kind});
+    return test::ReadCells(source, 0, 0.0, {}).Values[0];
+  };
+  EXPECT_FLOAT_EQ(first(SmokeSourceKind::Automatic), 0.5F);
+  EXPECT_FLOAT_EQ(first(SmokeSourceKind::DensitySlice), 0.4F);
+  EXPECT_FLOAT_EQ(first(SmokeSourceKind::OpticalDensitySlice), 1.15F);
+  EXPECT_FLOAT_EQ(first(SmokeSourceKind::VisibilitySlice), 0.5F);
+}
+
+TEST_F(OneMeshRun, TheSourceThatIsAskedForMustBeThere)
+{
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
+  try
+  {
+    ExtinctionSource source(this->Run(), {3.0, 0.0, SmokeSourceKind::Plot3D});
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("wrote no Plot3D files with smoke"));
+    EXPECT_THAT(error.what(), HasSubstr("3-D slice of SOOT EXTINCTION COEFFICIENT"));
+  }
+}
+
+TEST_F(OneMeshRun, TheNextBestSourceStandsInForAMissingFile)
+{
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
+  this->AddCells("d.sf", "SOOT DENSITY", 1e-4F, 0);
+  ExtinctionSource source(this->Run(), {});
+  EXPECT_THAT(
+    test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(testing::FloatEq(0.87F), 0.0F));
+  ASSERT_EQ(source.Warnings().size(), 1U);
+  EXPECT_THAT(source.Warnings()[0],
+    HasSubstr("gone.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'm' cannot be opened"));
+}
+
+TEST_F(OneMeshRun, InterpolatesInTime)
+{
+  folder_.Write(
+    "t.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
+              {{-2.0F, std::vector<float>(12, 1.0F)}, {2.0F, std::vector<float>(12, 3.0F)}}));
+  index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "t.sf", "SOOT EXTINCTION COEFFICIENT");
+  ExtinctionSource source(this->Run(), {});
+  const auto at = [&](double time, TimeInterpolation interpolation)
+  {
+    std::vector<float> values(2);
+    const double read = source.Read(0, time, interpolation, {}, values);
+    return std::make_pair(values[1], read);
+  };
+  EXPECT_EQ(at(-1.0, TimeInterpolation::Linear), std::make_pair(1.5F, -1.0));
+  EXPECT_EQ(at(-1.0, TimeInterpolation::Nearest), std::make_pair(1.0F, -2.0));
+  EXPECT_EQ(at(0.0, TimeInterpolation::Nearest), std::make_pair(1.0F, -2.0));
+  EXPECT_EQ(at(9.0, TimeInterpolation::Linear), std::make_pair(3.0F, 2.0));
+  EXPECT_EQ(at(-9.0, TimeInterpolation::Linear), std::make_pair(1.0F, -2.0));
+  EXPECT_EQ(at(2.0, TimeInterpolation::Linear), std::make_pair(3.0F, 2.0));
 }
 
 } // namespace smokevis

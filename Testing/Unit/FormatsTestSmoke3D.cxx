@@ -20,7 +20,6 @@ namespace smokevis
 namespace
 {
 
-constexpr double Km = 8700.0;
 constexpr std::array<int, 3> Nodes{3, 2, 2};
 
 using Bytes = std::vector<unsigned char>;
@@ -64,7 +63,7 @@ TEST(Smoke3DFile, DecodesDensityOfVersion1)
     const std::string path = folder.Write("a.s3d", Smoke(1, {Coded, Coded}, swapped));
     folder.Write("a.s3d.sz", "    1\n 0.0 12 5 0.0\n 1.0 12 5 2.0E-4\n");
     EXPECT_TRUE(Smoke3DFile::HoldsDensity(path));
-    Smoke3DFile smoke(path, Nodes, 0.5, Km);
+    Smoke3DFile smoke(path, Nodes, 0.5);
     EXPECT_THAT(smoke.FrameTimes(), ElementsAre(0.0, 1.0));
     EXPECT_EQ(smoke.Damage(), "");
     std::vector<float> values;
@@ -72,10 +71,10 @@ TEST(Smoke3DFile, DecodesDensityOfVersion1)
     EXPECT_THAT(values, Each(0.0F)); // the greatest density is 0
     smoke.ReadFrame(1, values);
     ASSERT_EQ(values.size(), 12U);
-    EXPECT_NEAR(values[0], 0.5 * 2e-4 * Km, 1e-6);
-    EXPECT_NEAR(values[9], 0.5 * 2e-4 * Km, 1e-6);
+    EXPECT_NEAR(values[0], 0.5 * 2e-4, 1e-10);
+    EXPECT_NEAR(values[9], 0.5 * 2e-4, 1e-10);
     EXPECT_EQ(values[10], 0.0F);
-    EXPECT_NEAR(values[11], 2e-4 * Km, 1e-6);
+    EXPECT_NEAR(values[11], 2e-4, 1e-10);
   }
 }
 
@@ -84,7 +83,7 @@ TEST(Smoke3DFile, DecodesOpacityOverTheFirstCell)
   test::Folder folder("v0");
   const std::string path = folder.Write("a.s3d", Smoke(0, {Coded}));
   EXPECT_FALSE(Smoke3DFile::HoldsDensity(path));
-  Smoke3DFile smoke(path, Nodes, 0.5, Km);
+  Smoke3DFile smoke(path, Nodes, 0.5);
   std::vector<float> values;
   smoke.ReadFrame(0, values);
   // exp(-K 0.5 m) = 1 - 127/254
@@ -102,8 +101,8 @@ TEST(Smoke3DFile, PrefersTheDensityTwin)
   folder.Write("a.s3d.sz", "    0\n 0.0 12 5 180.0 3 1.0E-4\n");
   EXPECT_TRUE(Smoke3DFile::HoldsDensity(path));
   std::vector<float> values;
-  Smoke3DFile(path, Nodes, 0.5, Km).ReadFrame(0, values);
-  EXPECT_THAT(values, Each(FloatNear(0.87F, 1e-6F)));
+  Smoke3DFile(path, Nodes, 0.5).ReadFrame(0, values);
+  EXPECT_THAT(values, Each(FloatNear(1e-4F, 1e-10F)));
 }
 
 TEST(Smoke3DFile, NamesWhatIsWrong)
@@ -115,7 +114,7 @@ TEST(Smoke3DFile, NamesWhatIsWrong)
     return Problem(
       [&]
       {
-        Smoke3DFile smoke(path, Nodes, 0.5, Km);
+        Smoke3DFile smoke(path, Nodes, 0.5);
         std::vector<float> values;
         smoke.ReadFrame(0, values);
       });
@@ -133,7 +132,7 @@ TEST(Smoke3DFile, NamesWhatIsWrong)
   const std::string path = folder.Write("a.s3d", cut);
   EXPECT_THAT(Problem(
                 [&] {
-                  Smoke3DFile smoke(path, {4, 2, 2}, 0.5, Km);
+                  Smoke3DFile smoke(path, {4, 2, 2}, 0.5);
                 }),
     HasSubstr("not that of the mesh"));
 }
@@ -143,7 +142,7 @@ TEST(Smoke3DFile, FramesWithoutAGreatestDensityAreLeftOut)
   test::Folder folder("sz");
   const std::string path = folder.Write("a.s3d", Smoke(1, {Coded, Coded}));
   folder.Write("a.s3d.sz", "    1\n 0.0 12 5 1.0E-4\n");
-  const Smoke3DFile smoke(path, Nodes, 0.5, Km);
+  const Smoke3DFile smoke(path, Nodes, 0.5);
   EXPECT_THAT(smoke.FrameTimes(), ElementsAre(0.0));
   EXPECT_THAT(smoke.Damage(), HasSubstr("frame 2"));
 }
@@ -164,7 +163,7 @@ TEST(Smoke3DFile, AnyCutOrFlippedByteIsReadOrRefused)
         Problem(
           [&]
           {
-            Smoke3DFile smoke(path, Nodes, 0.5, Km);
+            Smoke3DFile smoke(path, Nodes, 0.5);
             std::vector<float> values;
             smoke.ReadFrame(smoke.FrameTimes().size() - 1, values);
           });
@@ -243,7 +242,7 @@ protected:
 TEST_F(WithoutSlices, TakesTheSmokeOfTheNodes)
 {
   this->AddSmoke(1);
-  ExtinctionSource source(this->Run(), 3.0);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(source.Description(), HasSubstr("8-bit 3-D smoke a.s3d"));
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, Each(FloatNear(0.87F, 1e-5F)));
 }
@@ -251,7 +250,7 @@ TEST_F(WithoutSlices, TakesTheSmokeOfTheNodes)
 TEST_F(WithoutSlices, TakesSolidsOutOfTheNodes)
 {
   this->AddSmoke(1);
-  ExtinctionSource source(this->Run(), 3.0);
+  ExtinctionSource source(this->Run(), {});
   // The first cell is solid: of the second one's nodes, four lie halfway in it and lack half.
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {1, 0}).Values,
     ElementsAre(0.0F, FloatNear(0.5F * 0.87F + 0.5F * 2 * 0.87F, 1e-5F)));
@@ -261,9 +260,9 @@ TEST_F(WithoutSlices, PrefersDensityToPlot3DAndPlot3DToOpacity)
 {
   this->AddSmoke(1);
   this->AddPlot3D();
-  EXPECT_THAT(ExtinctionSource(this->Run(), 3.0).Description(), HasSubstr("a.s3d"));
+  EXPECT_THAT(ExtinctionSource(this->Run(), {}).Description(), HasSubstr("a.s3d"));
   folder_.Write("a.s3d", Smoke(0, {{255, 127, 12}}));
-  ExtinctionSource source(this->Run(), 3.0);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(source.Description(), HasSubstr("Plot3D a.q"));
   EXPECT_THAT(source.Times(), ElementsAre(7.5));
   EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, Each(0.25F));
@@ -275,13 +274,13 @@ TEST_F(WithoutSlices, CompletesAPartialSliceFromTheSmoke)
   folder_.Write("p.sf", test::SliceBytes("SOOT EXTINCTION COEFFICIENT", {0, 1, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(8, 2.0F)}}));
   index_.Slice(true, 1, {0, 1, 0, 1, 0, 1}, "p.sf", "SOOT EXTINCTION COEFFICIENT");
-  ExtinctionSource source(this->Run(), 3.0);
+  ExtinctionSource source(this->Run(), {});
   EXPECT_THAT(
     test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(2.0F, FloatNear(0.87F, 1e-5F)));
   EXPECT_TRUE(source.Warnings().empty());
   // Without the file the part alone is used, and that is said.
   std::filesystem::remove(folder_.Path("a.s3d"));
-  ExtinctionSource part(this->Run(), 3.0);
+  ExtinctionSource part(this->Run(), {});
   EXPECT_THAT(test::ReadCells(part, 0, 0.0, {}).Values, ElementsAre(2.0F, 0.0F));
   ASSERT_EQ(part.Warnings().size(), 2U);
   EXPECT_THAT(part.Warnings()[0], HasSubstr("a.s3d"));
@@ -294,7 +293,7 @@ TEST_F(WithoutSlices, AnUnnamedSliceIsNotAddedToNamedSmoke)
   folder_.Write("k.sf", test::SliceBytes("EXTINCTION COEFFICIENT", {0, 2, 0, 1, 0, 1},
                           {{0.0F, std::vector<float>(12, 2.0F)}}));
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "k.sf", "EXTINCTION COEFFICIENT");
-  EXPECT_THAT(test::ReadCells(ExtinctionSource(this->Run(), 3.0), 0, 0.0, {}).Values, Each(2.0F));
+  EXPECT_THAT(test::ReadCells(ExtinctionSource(this->Run(), {}), 0, 0.0, {}).Values, Each(2.0F));
 }
 
 } // namespace smokevis

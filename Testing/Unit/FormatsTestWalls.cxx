@@ -1,6 +1,7 @@
 // Walls: areas and directions that can be worked out by hand.
 #include "FormatsTestRun.h"
 #include "SolidCells.h"
+#include "SrgbColor.h"
 #include "WallBuilder.h"
 
 #include <gmock/gmock.h>

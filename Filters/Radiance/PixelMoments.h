@@ -1,0 +1,54 @@
+// Contrast over the pixels of an observer's image, and its standard error.
+#pragma once
+
+#include "PlatePattern.h"
+
+namespace smokevis
+{
+
+/// A coefficient of each value of the pattern, a value a batch, makes the luminance that arrives.
+using Coefficients = std::array<std::array<double, PatternValues>, Batches>;
+
+/// How what a block of the plate shows arrives at the eye.
+struct SeenBlock
+{
+  /// Solid angle of a unit of the pattern's area, of what is not hidden.
+  double Density;
+  Coefficients Factors;
+};
+
+/// Factors of the mean of all batches (-1), or of all but one.
+PatternVector FactorsOf(const Coefficients& factors, int leftOut);
+
+double Dot(const PatternVector& a, const PatternVector& b);
+
+/// Mean and standard deviation over the pixels of one sign.
+struct Moments
+{
+  double Mean = 0.0;
+  double Deviation = 0.0;
+};
+
+/// Weight of the pixels, and the sums of their luminance and of its square.
+struct Sums
+{
+  double Weight = 0.0;
+  double First = 0.0;
+  double Second = 0.0;
+
+  Moments Get() const;
+};
+
+/// Adds the pixels of a plane part of a sign, in the light of the mean of all batches (-1) or of
+/// all but one.
+/// @param blocks one a block of the pattern
+void AddPixels(
+  const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, int leftOut, Sums& sums);
+
+/// Deviation over (mean + dark) with its jackknife estimate, free of first-order bias, and standard
+/// error.
+/// @param parts each with one batch left out
+void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
+  double& value, double& error);
+
+} // namespace smokevis

@@ -1,0 +1,150 @@
+#include "PlateVeil.h"
+
+#include <algorithm>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Gauss-Legendre nodes on (0, 1).
+constexpr std::array<double, 3> GaussNodes = {0.11270166537925831, 0.5, 0.88729833462074169};
+/// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
+constexpr std::size_t MostColumns = 16;
+
+/// Weights of the quadratic through the three Gauss nodes.
+std::array<double, 3> Quadratic(double t)
+{
+  const double a = GaussNodes[0];
+  const double b = GaussNodes[1];
+  const double c = GaussNodes[2];
+  return {(t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
+    (t - a) * (t - b) / ((c - a) * (c - b))};
+}
+
+} // namespace
+
+PlateColumns::PlateColumns(std::vector<double> borders)
+{
+  std::sort(borders.begin(), borders.end());
+  for (const double border : borders)
+  {
+    if (this->Ends.empty() || border - this->Ends.back() > 1e-6)
+    {
+      this->Ends.push_back(border);
+    }
+  }
+  if (this->Ends.size() > MostColumns + 1)
+  {
+    this->Ends = {0.0, 1.0};
+  }
+  this->Widest = 0.0;
+  for (std::size_t i = 1; i < this->Ends.size(); ++i)
+  {
+    this->Widest = std::max(this->Widest, this->Ends[i] - this->Ends[i - 1]);
+  }
+}
+
+std::size_t PlateColumns::Of(double t) const
+{
+  return std::upper_bound(this->Ends.begin() + 1, this->Ends.end() - 1, t) -
+         (this->Ends.begin() + 1);
+}
+
+double PlateColumns::Node(std::size_t column, int index) const
+{
+  const double width = this->Ends[column + 1] - this->Ends[column];
+  return this->Ends[column] + width * (index == 0 ? 0.21132486540518712 : 0.78867513459481288);
+}
+
+Vec3 OnPlate(const Sign& sign, double u, double v)
+{
+  return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +
+         v * (sign.Corners[3] - sign.Corners[0]);
+}
+
+glm::dvec2 PlaceOnPlate(const Sign& sign, const Vec3& point)
+{
+  const Vec3 u = sign.Corners[1] - sign.Corners[0];
+  const Vec3 v = sign.Corners[3] - sign.Corners[0];
+  const Vec3 from = point - sign.Corners[0];
+  return {glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v)};
+}
+
+PlateVeil::PlateVeil(const View& view, const Sign& sign, const Vec3& eye, int band,
+  const PlateColumns& columns, const PlateColumns& rows)
+    : Columns_(columns), Rows_(rows)
+{
+  // The pattern blurs over a distance of about its period.
+  this->Reach_ = 2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+                         rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->Far_[j][i] = this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
+    }
+  }
+  this->Near_.resize(columns.Count() * rows.Count());
+  for (std::size_t row = 0; row < rows.Count(); ++row)
+  {
+    for (std::size_t column = 0; column < columns.Count(); ++column)
+    {
+      Lanes& mean = this->Near_[row * columns.Count() + column];
+      for (const int j : {0, 1})
+      {
+        for (const int i : {0, 1})
+        {
+          const RayLight light =
+            this->Trace(view, sign, eye, band, columns.Node(column, i), rows.Node(row, j), false);
+          for (int batch = 0; batch < Batches; ++batch)
+          {
+            mean[batch] +=
+              0.25F * (static_cast<float>(light.VeilDirect) + light.VeilMultiple[batch]);
+          }
+        }
+      }
+    }
+  }
+}
+
+Lanes PlateVeil::At(const glm::dvec2& place) const
+{
+  const auto u = Quadratic(place.x);
+  const auto v = Quadratic(place.y);
+  Lanes veil =
+    this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() + this->Columns_.Of(place.x)];
+  double steady = 0.0;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const double share = u[i] * v[j];
+      const RayLight& light = this->Far_[j][i];
+      steady += share * light.VeilDirect;
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        veil[batch] += static_cast<float>(share) * light.VeilMultiple[batch];
+      }
+    }
+  }
+  for (float& value : veil.Value)
+  {
+    value += static_cast<float>(steady);
+  }
+  return veil;
+}
+
+RayLight PlateVeil::Trace(
+  const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v, bool far) const
+{
+  const Vec3 to = OnPlate(sign, u, v) - eye;
+  const double distance = glm::length(to);
+  const Vec3 direction = to / distance;
+  const double border = std::max(0.0, distance - this->Reach_);
+  return far ? view.TraceVeil(eye, direction, 0.0, border, band)
+             : view.TraceVeil(eye, direction, border, distance, band);
+}
+
+} // namespace smokevis

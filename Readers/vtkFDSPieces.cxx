@@ -1,0 +1,139 @@
+#include "vtkFDSPieces.h"
+
+#include "FlameLight.h"
+#include "SmvFile.h"
+
+#include "vtkCommunicator.h"
+#include "vtkDataObjectTypes.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace smokevis
+{
+
+//------------------------------------------------------------------------------------------------
+FDSPieces::FDSPieces(const SmvFile& index, vtkInformation* output)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  int pieces = 1;
+  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    pieces = std::max(1, output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+    piece_ = std::clamp(output->Get(Pipeline::UPDATE_PIECE_NUMBER()), 0, pieces - 1);
+  }
+  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
+  const int processes = controller ? controller->GetNumberOfProcesses() : 1;
+  int share = piece_;
+  if (processes > 1 && (pieces == 1 || pieces == processes))
+  {
+    processes_ = processes;
+    exchanges_ = pieces == 1;
+    pieces = processes;
+    share = controller->GetLocalProcessId();
+  }
+
+  // Meshes in their order, as many cells each as can be.
+  const int meshes = static_cast<int>(index.Meshes.size());
+  std::vector<double> cellsBefore(1, 0.0);
+  for (const SmvMesh& mesh : index.Meshes)
+  {
+    cellsBefore.push_back(
+      cellsBefore.back() + static_cast<double>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2));
+  }
+  int mesh = 0;
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    begins_.push_back(mesh);
+    const double end = cellsBefore.back() * (piece + 1) / pieces;
+    // A mesh goes where its middle lies.
+    while (mesh < meshes && 0.5 * (cellsBefore[mesh] + cellsBefore[mesh + 1]) <= end)
+    {
+      ++mesh;
+    }
+  }
+  begins_.push_back(meshes);
+  first_ = begins_[share];
+  end_ = begins_[share + 1];
+}
+
+//------------------------------------------------------------------------------------------------
+FDSPieces::Outcome FDSPieces::Agree(Outcome own) const
+{
+  const int sent = static_cast<int>(own);
+  int received = sent;
+  if (processes_ > 1)
+  {
+    vtkMultiProcessController::GetGlobalController()->AllReduce(
+      &sent, &received, 1, vtkCommunicator::MAX_OP);
+  }
+  return static_cast<Outcome>(received);
+}
+
+//------------------------------------------------------------------------------------------------
+FlameLight FDSPieces::Sum(const std::vector<FlameLight>& meshes) const
+{
+  std::vector<double> sent;
+  for (const FlameLight& one : meshes)
+  {
+    sent.insert(sent.end(), {one.HeatRelease, one.LumensAsked, one.LumensPlaced});
+  }
+  std::vector<double> received = sent;
+  if (processes_ > 1)
+  {
+    // Each number is zero but for one process.
+    vtkMultiProcessController::GetGlobalController()->AllReduce(
+      sent.data(), received.data(), static_cast<vtkIdType>(sent.size()), vtkCommunicator::SUM_OP);
+  }
+  FlameLight sum;
+  for (std::size_t i = 0; i < received.size(); i += 3)
+  {
+    sum += {received[i], received[i + 1], received[i + 2]};
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------------------------
+int FDSPieces::Owner(int mesh) const
+{
+  return static_cast<int>(
+           std::upper_bound(begins_.begin(), begins_.end() - 1, mesh) - begins_.begin()) -
+         1;
+}
+
+//------------------------------------------------------------------------------------------------
+void FDSPieces::Complete(
+  vtkPartitionedDataSetCollection* blocks, const std::vector<int>& meshOfBlock) const
+{
+  if (!exchanges_)
+  {
+    return;
+  }
+  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
+  for (unsigned int block = 0; block < meshOfBlock.size(); ++block)
+  {
+    const int owner = this->Owner(meshOfBlock[block]);
+    vtkSmartPointer<vtkDataSet> grid = blocks->GetPartition(block, 0);
+    // A file that is missing leaves a block empty on its owner.
+    int has = grid ? 1 : 0;
+    controller->Broadcast(&has, 1, owner);
+    if (has == 0)
+    {
+      continue;
+    }
+    if (!grid)
+    {
+      grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+    }
+    controller->Broadcast(grid, owner);
+    blocks->SetPartition(block, 0, grid);
+  }
+}
+
+} // namespace smokevis

@@ -1,0 +1,75 @@
+// The cases of the benchmark and what they share.
+#pragma once
+
+#include "FloorMap.h"
+#include "ResultTable.h"
+#include "SceneLibrary.h"
+#include "View.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smokevis::benchmark
+{
+
+/// What the command line asks for.
+struct Settings
+{
+  /// Folder for the CSV files.
+  std::string Out = ".";
+  std::vector<std::string> Cases;
+  std::vector<double> Tolerances = {0.1, 0.03, 0.01, 0.003};
+  /// Samples a pixel of the reference integrator.
+  std::vector<double> Samples = {1, 4, 16, 64};
+  /// Threads of the solver; 0: all.
+  int Threads = 0;
+  /// Tolerance of the solutions that others are measured against.
+  double ReferenceTolerance = 0.001;
+  /// A growth curve ends after the first point that takes longer [s].
+  double Limit = 60.0;
+  /// Instant of the hall's fire [s].
+  double Time = 600.0;
+};
+
+/// A light field with what it took.
+struct Solution
+{
+  std::shared_ptr<const Scene> TheScene;
+  std::shared_ptr<const LightField> Field;
+  std::unique_ptr<const View> TheView;
+  /// Search structures, and the light field [s].
+  double SetUpSeconds = 0.0;
+  double FieldSeconds = 0.0;
+};
+Solution Solve(
+  const SceneDescription& description, double tolerance, std::uint64_t seed, int threads);
+/// The same for a scene that is set up already.
+Solution Solve(
+  std::shared_ptr<const Scene> scene, double tolerance, std::uint64_t seed, int threads);
+
+/// Runs body(i) for all i below count on so many threads (0: all).
+void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
+
+/// The hall of Data/Hall with its FDS smoke, its walls in patches of at most 2 m and eight signs.
+SceneDescription Hall(double time);
+/// The same with its smoke on cells of about 0.1 m, ten million of them.
+SceneDescription FineHall(double time);
+
+/// The places of a map of the hall at eye level, 1.7 m.
+FloorMapOptions HallPlaces(int across, int along, int threads);
+
+/// tunnel: 64 x 64 pixels, error of pixels and of the veil before dark bars, beside the reference
+/// integrator.
+void RunTunnel(const Settings& settings);
+/// hall12, hall110, hall10m: floor maps.
+void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine);
+/// growth: time over cells, views, emitters, triangles, optical depth and albedo.
+void RunGrowth(const Settings& settings);
+/// threads: one thread against two.
+void RunThreads(const Settings& settings);
+/// steps: nanoseconds a step of a ray from cell to cell.
+void RunSteps(const Settings& settings);
+
+} // namespace smokevis::benchmark

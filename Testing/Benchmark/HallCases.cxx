@@ -1,0 +1,107 @@
+// Floor maps of the hall: run time and memory against the error of contrast.
+#include "BenchmarkCases.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis::benchmark
+{
+
+namespace
+{
+
+struct MapError
+{
+  /// Of the plain contrast of signs whose mean luminance is at least 1e-3 cd/m2: root mean square
+  /// and largest.
+  double Contrast = 0.0;
+  double LargestContrast = 0.0;
+  /// Root mean square of the map itself, the largest perceived contrast of a place.
+  double Visibility = 0.0;
+  /// Over those signs that the first one counts, the mean of |error| / (reported error) of the map;
+  /// 0.8 where error bars are true.
+  double InErrorBars = 0.0;
+};
+
+/// What is fainter adds nothing to a map of perceived contrast with the default dark luminance,
+/// 0.1 cd/m2.
+constexpr double Faint = 1e-3;
+
+MapError Compare(const FloorMap& reference, const FloorMap& map)
+{
+  MapError error;
+  double signs = 0.0;
+  for (std::size_t i = 0; i < map.Contrast.size(); ++i)
+  {
+    if (reference.SignLuminance[i] < Faint)
+    {
+      continue;
+    }
+    const double difference = std::abs(map.Contrast[i] - reference.Contrast[i]);
+    signs += 1.0;
+    error.Contrast += difference * difference;
+    error.LargestContrast = std::max(error.LargestContrast, difference);
+  }
+  error.Contrast = std::sqrt(error.Contrast / std::max(1.0, signs));
+  double bars = 0.0;
+  for (std::size_t i = 0; i < map.Visibility.size(); ++i)
+  {
+    const double difference = map.Visibility[i] - reference.Visibility[i];
+    error.Visibility += difference * difference;
+    if (map.VisibilityError[i] > 0.0F && map.BestSign[i] == reference.BestSign[i])
+    {
+      bars += 1.0;
+      error.InErrorBars +=
+        std::abs(difference) / std::hypot(map.VisibilityError[i], reference.VisibilityError[i]);
+    }
+  }
+  error.Visibility = std::sqrt(error.Visibility / static_cast<double>(map.Visibility.size()));
+  error.InErrorBars /= std::max(1.0, bars);
+  return error;
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine)
+{
+  ResultTable table(settings.Out + "/" + name + ".csv",
+    {"tolerance", "threads", "setup_s", "field_s", "map_s", "total_s", "contrast_error",
+      "largest_contrast_error", "visibility_error", "error_over_bar", "peak_MiB"});
+  const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
+  const StopWatch setUp;
+  const auto scene =
+    std::make_shared<const Scene>(fine ? FineHall(settings.Time) : Hall(settings.Time));
+  const double setUpSeconds = setUp.Seconds();
+  Progress progress;
+  FloorMap reference;
+  if (settings.ReferenceTolerance > 0.0)
+  {
+    const Solution limit = Solve(scene, settings.ReferenceTolerance, 99, settings.Threads);
+    reference = ComputeFloorMap(*limit.TheView, places, progress);
+  }
+  for (const double tolerance : settings.Tolerances)
+  {
+    const Solution solution = Solve(scene, tolerance, 1, settings.Threads);
+    const StopWatch watch;
+    const FloorMap map = ComputeFloorMap(*solution.TheView, places, progress);
+    const double seconds = watch.Seconds();
+    std::vector<std::string> row = {Number(tolerance), Number(settings.Threads),
+      Number(setUpSeconds), Number(solution.FieldSeconds), Number(seconds),
+      Number(solution.FieldSeconds + seconds)};
+    if (reference.Visibility.empty())
+    {
+      row.insert(row.end(), 4, "");
+    }
+    else
+    {
+      const MapError error = Compare(reference, map);
+      row.insert(row.end(), {Number(error.Contrast), Number(error.LargestContrast),
+                              Number(error.Visibility), Number(error.InErrorBars)});
+    }
+    row.push_back(Number(PeakMemory()));
+    table.Row(row);
+  }
+}
+
+} // namespace smokevis::benchmark

@@ -1,0 +1,126 @@
+// The benchmark's command line: SmokeBenchmark --case tunnel,hall12 --tolerance 0.1,0.01 ...
+#include "BenchmarkCases.h"
+
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace smokevis::benchmark;
+
+const std::map<std::string, std::function<void(const Settings&)>> Cases = {
+  {"tunnel", RunTunnel},
+  {"hall12", [](const Settings& settings) { RunHall(settings, "hall12", 12, 8, false); }},
+  {"hall110", [](const Settings& settings) { RunHall(settings, "hall110", 110, 70, false); }},
+  {"hall10m", [](const Settings& settings) { RunHall(settings, "hall10m", 12, 8, true); }},
+  {"growth", RunGrowth},
+  {"threads", RunThreads},
+  {"steps", RunSteps},
+};
+
+std::vector<std::string> SplitList(const std::string& list)
+{
+  std::vector<std::string> items;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');)
+  {
+    items.push_back(item);
+  }
+  return items;
+}
+
+std::vector<double> Numbers(const std::string& list)
+{
+  std::vector<double> numbers;
+  for (const std::string& item : SplitList(list))
+  {
+    numbers.push_back(std::stod(item));
+  }
+  return numbers;
+}
+
+Settings Parse(int count, char** words)
+{
+  Settings settings;
+  const std::map<std::string, std::function<void(const std::string&)>> options = {
+    {"--case", [&](const std::string& word) { settings.Cases = SplitList(word); }},
+    {"--tolerance", [&](const std::string& word) { settings.Tolerances = Numbers(word); }},
+    {"--samples", [&](const std::string& word) { settings.Samples = Numbers(word); }},
+    {"--threads", [&](const std::string& word) { settings.Threads = std::stoi(word); }},
+    {"--reference-tolerance",
+      [&](const std::string& word) { settings.ReferenceTolerance = std::stod(word); }},
+    {"--limit", [&](const std::string& word) { settings.Limit = std::stod(word); }},
+    {"--time", [&](const std::string& word) { settings.Time = std::stod(word); }},
+    {"--out", [&](const std::string& word) { settings.Out = word; }},
+  };
+  for (int i = 1; i < count; i += 2)
+  {
+    const auto option = options.find(words[i]);
+    if (option == options.end() || i + 1 >= count)
+    {
+      throw std::invalid_argument(std::string("unknown or incomplete option ") + words[i]);
+    }
+    option->second(words[i + 1]);
+  }
+  if (settings.Cases.empty())
+  {
+    throw std::invalid_argument("no case is asked for");
+  }
+  return settings;
+}
+
+void PrintUsage()
+{
+  std::fprintf(stderr,
+    "SmokeBenchmark --case A,B,... [options]\n"
+    "  cases: tunnel hall12 hall110 hall10m growth threads steps\n"
+    "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver\n"
+    "  --samples 1,4,16,64               samples a pixel of the reference integrator\n"
+    "  --reference-tolerance 0.001       of what errors are measured against; 0: no errors (hall)\n"
+    "  --threads 0                       of the solver; 0: all\n"
+    "  --limit 60                        a growth curve ends after a point of so many seconds\n"
+    "  --time 600                        second of the hall's fire\n"
+    "  --out .                           folder for the CSV files\n");
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+  Settings settings;
+  try
+  {
+    settings = Parse(count, words);
+    for (const std::string& name : settings.Cases)
+    {
+      if (Cases.find(name) == Cases.end())
+      {
+        throw std::invalid_argument("unknown case " + name);
+      }
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    PrintUsage();
+    return 2;
+  }
+  try
+  {
+    for (const std::string& name : settings.Cases)
+    {
+      std::printf("== %s\n", name.c_str());
+      Cases.at(name)(settings);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

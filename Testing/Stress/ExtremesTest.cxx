@@ -1,0 +1,181 @@
+// Optical depths from nothing to a million a cell, light that is never lost, and where no steady
+// state exists.
+#include "Errors.h"
+#include "StressScenes.h"
+#include "TestReport.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// A closed box of 2 x 1 x 1 m with walls of one reflectance and a sign, itself of that
+/// reflectance, on its end wall. Cells are a cube of 1/6 m.
+SceneDescription ClosedBox(double depthOfCell, double albedo, double reflectance)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(2, 1, 1), {12, 6, 6}, 6.0 * depthOfCell)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(2, 1, 1), 0.34, reflectance);
+  scene.Emitters =
+    scenes::Barcode({2, 0.5, 0.5}, {-1, 0, 0}, {0, 0, 1}, 0.3, 0.3, 3, 1.0, 0, reflectance);
+  return scene;
+}
+
+const Vec3 Eye{0.1, 0.4, 0.5};
+
+double EmittedPower(const Solved& solved)
+{
+  return solved.TheScene->Lights().Flux(0);
+}
+
+std::string NameOf(double depth, double albedo, double reflectance)
+{
+  return "depth " + std::to_string(depth) + ", lost by smoke " + std::to_string(1.0 - albedo) +
+         ", by walls " + std::to_string(1.0 - reflectance);
+}
+
+// Every mix of smoke and walls that loses some light: finite, and what is emitted is absorbed.
+// Smoke of a depth of 1e3 a cell keeps all light in the cells next to the sign, where a mean over a
+// cell says little: 3 % there, 0.3 % elsewhere.
+TEST(Extremes, DISABLED_DepthAlbedoReflectance)
+{
+  report::Head("Energy balance of closed boxes [lm]");
+  for (const double depth : {0.0, 1e-12, 1e-3, 1.0, 1e3, 1e6})
+  {
+    for (const double albedo : {0.0, 1.0 - 1e-7, 1.0})
+    {
+      for (const double reflectance : {0.0, 0.8})
+      {
+        const std::string name = NameOf(depth, albedo, reflectance);
+        SCOPED_TRACE(name);
+        const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03);
+        stress::ExpectSaneField(solved);
+        stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
+        const Estimate smoke = solved.AbsorbedInSmoke();
+        const Estimate surfaces = solved.AbsorbedOnSurfaces();
+        const double emitted = EmittedPower(solved);
+        report::Relative(name, emitted, smoke.Mean + surfaces.Mean, depth >= 1e3 ? 0.03 : 0.003,
+          std::hypot(smoke.StandardError, surfaces.StandardError));
+      }
+    }
+  }
+}
+
+// White walls around smoke that absorbs: all light ends in the smoke, however often it is sent
+// back. An exact mean fluence follows, power / (k_a volume).
+TEST(Extremes, DISABLED_WhiteWallsAroundAbsorbingSmoke)
+{
+  report::Head("Mean fluence in closed boxes that hardly lose light [lx]");
+  for (const double reflectance : {0.999999, 1.0})
+  {
+    for (const double albedo : {0.5, 0.99})
+    {
+      const std::string name = NameOf(0.1, albedo, reflectance);
+      SCOPED_TRACE(name);
+      const Solved solved(ClosedBox(0.1, albedo, reflectance), 0.03);
+      stress::ExpectSaneField(solved);
+      std::vector<std::int64_t> cells(solved.TheScene->Smoke().Cells());
+      for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      {
+        cells[cell] = static_cast<std::int64_t>(cell);
+      }
+      const Estimate fluence = solved.Fluence(cells);
+      const double absorption = 0.6 * (1.0 - albedo);
+      // Walls of area 10 m2 that lose 1e-6 take less than 1e-5 of the light.
+      report::Relative(name, EmittedPower(solved) / (absorption * 2.0), fluence.Mean, 0.003,
+        fluence.StandardError);
+    }
+  }
+}
+
+// Hardly any light is lost: a thousandth of a millionth a scattering. Either the exact answer or a
+// word that says why not.
+TEST(Extremes, HardlyAnyLightIsLost)
+{
+  for (const double reflectance : {0.999999, 1.0})
+  {
+    for (const double depth : {0.01, 1.0})
+    {
+      const double albedo = 1.0 - 1e-7;
+      const std::string name = NameOf(depth, albedo, reflectance);
+      SCOPED_TRACE(name);
+      try
+      {
+        const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03);
+        stress::ExpectSaneField(solved);
+        const Estimate smoke = solved.AbsorbedInSmoke();
+        const Estimate surfaces = solved.AbsorbedOnSurfaces();
+        report::Relative(name, EmittedPower(solved), smoke.Mean + surfaces.Mean, 0.01,
+          std::hypot(smoke.StandardError, surfaces.StandardError));
+      }
+      catch (const Error& error)
+      {
+        std::printf("%s: %s\n", name.c_str(), error.what());
+      }
+    }
+  }
+}
+
+// No light is ever lost: there is no steady state, and the answer is an error that says so.
+TEST(Extremes, DISABLED_NoSteadyState)
+{
+  for (const double depth : {0.0, 1e-3, 1.0})
+  {
+    SCOPED_TRACE(depth);
+    try
+    {
+      const Solved solved(ClosedBox(depth, 1.0, 1.0), 0.03);
+      ADD_FAILURE() << "accepted";
+    }
+    catch (const Error& error)
+    {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("light"), std::string::npos) << message;
+      EXPECT_NE(message.find("below 1"), std::string::npos) << message;
+    }
+  }
+}
+
+// Layers of a depth of a million next to clear air, in checks: light stays where it is let in.
+TEST(Extremes, ClearAndOpaqueCellsSideBySide)
+{
+  for (const double albedo : {0.0, 0.9, 1.0})
+  {
+    SceneDescription scene = ClosedBox(1.0, albedo, 0.5);
+    for (std::size_t cell = 0; cell < scene.Grids[0].Extinction.size(); ++cell)
+    {
+      const std::size_t sum = cell % 12 + cell / 12 % 6 + cell / 72;
+      scene.Grids[0].Extinction[cell] = sum % 2 == 0 ? 0.0F : 6e6F;
+    }
+    const Solved solved(scene, 0.03);
+    stress::ExpectSaneField(solved);
+    stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
+  }
+}
+
+// Luminances over twenty decades in one scene, in single precision fields.
+TEST(Extremes, LuminancesFarApart)
+{
+  for (const double luminance : {1e-12, 1e12})
+  {
+    SceneDescription scene = ClosedBox(0.1, 0.9, 0.5);
+    const Solved plain(scene, 0.1);
+    for (EmitterCell& cell : scene.Emitters)
+    {
+      cell.Luminance[0] *= luminance;
+    }
+    const Solved solved(scene, 0.1);
+    stress::ExpectSaneField(solved);
+    const Ray ray{Eye, glm::normalize(Vec3(1.0, 0.3, 0.4))};
+    // The same random numbers: only roundings differ.
+    EXPECT_NEAR(solved.Luminance(ray).Mean / (luminance * plain.Luminance(ray).Mean), 1.0, 1e-5);
+  }
+}
+
+} // namespace

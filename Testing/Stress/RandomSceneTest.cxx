@@ -1,0 +1,160 @@
+// Scenes drawn at random, the odder the better: finite numbers, none negative, no hang, and error
+// bars that hold from one seed to another.
+#include "Errors.h"
+#include "StressScenes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What went by in a run over many scenes.
+struct Tally
+{
+  int Scenes = 0;
+  int Refused = 0;
+  int Compared = 0;
+  int Violations = 0;
+  /// Scenes that took more than the second that one of them may take.
+  int Slow = 0;
+  double Seconds = 0.0;
+  double Slowest = 0.0;
+  std::string SlowestName;
+};
+
+/// Two estimates of one number differ by more than three joint standard errors in 0.5 % of all
+/// cases (Student's t with 30 degrees of freedom).
+void Compare(const Estimate& a, const Estimate& b, Tally& tally)
+{
+  const double error = std::hypot(a.StandardError, b.StandardError);
+  if (error <= 0.0)
+  {
+    return;
+  }
+  ++tally.Compared;
+  tally.Violations += std::abs(a.Mean - b.Mean) > 3.0 * error ? 1 : 0;
+}
+
+Ray DrawRay(const Vec3& eye, Pcg32& random)
+{
+  const double x = random.Uniform() - 0.5;
+  const double y = random.Uniform() - 0.5;
+  return {eye, glm::normalize(Vec3(x, y, random.Uniform() - 0.5))};
+}
+
+/// Compares fluences of cells and luminances of rays of two solutions from different seeds.
+void CompareSeeds(
+  const Solved& a, const Solved& b, const Vec3& eye, std::uint64_t seed, Tally& tally)
+{
+  Pcg32 random(seed, 2);
+  for (int i = 0; i < 3; ++i)
+  {
+    const Ray ray = DrawRay(eye, random);
+    Compare(a.Luminance(ray), b.Luminance(ray), tally);
+    if (const std::size_t cells = a.TheScene->Smoke().Cells(); cells > 0)
+    {
+      const std::vector<std::int64_t> cell = {
+        static_cast<std::int64_t>(random.Uniform() * static_cast<double>(cells))};
+      Compare(a.Fluence(cell), b.Fluence(cell), tally);
+    }
+  }
+}
+
+/// All that is to be said about one solution: the light field, each sign, a few rays.
+void ExpectSane(const Solved& solved, const stress::StressScene& scene, std::uint64_t seed)
+{
+  stress::ExpectSaneField(solved);
+  const auto& signs = solved.TheScene->Lights().Signs();
+  for (std::size_t sign = 0; sign < signs.size(); ++sign)
+  {
+    stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, scene.Eye, Observer{0.0}));
+  }
+  Pcg32 random(seed, 1);
+  for (int i = 0; i < 5; ++i)
+  {
+    const Ray ray = i == 0 ? Ray{scene.Eye, Vec3(1, 0, 0)} : DrawRay(scene.Eye, random);
+    const Hit hit = solved.TheView->FirstHit(ray.Origin, ray.Direction);
+    for (int band = 0; band < solved.TheScene->Bands(); ++band)
+    {
+      const double light = solved.TheView->Trace(ray.Origin, ray.Direction, hit, band).Total();
+      EXPECT_TRUE(std::isfinite(light) && light >= 0.0) << light;
+    }
+  }
+}
+
+void RunScene(std::uint64_t seed, bool twice, Tally& tally)
+{
+  const stress::StressScene scene = stress::DrawScene(seed);
+  SCOPED_TRACE(scene.Name);
+  ++tally.Scenes;
+  const Clock::time_point start = Clock::now();
+  try
+  {
+    const Solved solved(scene.Description, scene.Tolerance, seed);
+    ExpectSane(solved, scene, seed);
+    const double seconds = SecondsSince(start);
+    tally.Seconds += seconds;
+    if (seconds > 1.0)
+    {
+      ++tally.Slow;
+      std::printf("%.1f s: %s\n", seconds, scene.Name.c_str());
+      std::fflush(stdout);
+    }
+    if (seconds > tally.Slowest)
+    {
+      tally.Slowest = seconds;
+      tally.SlowestName = scene.Name;
+    }
+    if (twice)
+    {
+      const Solved other(scene.Description, scene.Tolerance, seed + 1000000);
+      CompareSeeds(solved, other, scene.Eye, seed, tally);
+    }
+  }
+  catch (const Error& error)
+  {
+    ++tally.Refused;
+    ADD_FAILURE() << error.what();
+  }
+}
+
+/// @param every of how many scenes one is solved a second time, for its error bars
+void RunScenes(std::uint64_t first, std::uint64_t count, std::uint64_t every)
+{
+  Tally tally;
+  for (std::uint64_t seed = first; seed < first + count; ++seed)
+  {
+    RunScene(seed, seed % every == 0, tally);
+  }
+  std::printf("%d scenes in %.0f s, %d refused, %d of more than a second, slowest %.2f s (%s)\n"
+              "%d values from two seeds, %d of them more than three standard errors apart\n",
+    tally.Scenes, tally.Seconds, tally.Refused, tally.Slow, tally.Slowest,
+    tally.SlowestName.c_str(), tally.Compared, tally.Violations);
+  // Half a percent is expected; batches that share rare events have longer tails than a normal law.
+  EXPECT_LE(tally.Violations, 3 + tally.Compared / 50);
+}
+
+TEST(RandomScenes, DISABLED_Hundred)
+{
+  RunScenes(1, 100, 2);
+}
+
+TEST(RandomScenes, TenThousandLong)
+{
+  RunScenes(1001, 10000, 10);
+}
+
+} // namespace
