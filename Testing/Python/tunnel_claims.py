@@ -179,9 +179,10 @@ def check_jin():
 def check_hall():
     numbers = burning_hall.compute(times=(600.0,), places=(11, 7))
     means = numbers["means"][600.0]
-    assert means["fire"] < 0.1 and means["doors"] > 0.5 and means["walls"] < means["doors"], means
-    assert {name: int(mask.sum()) for name, mask in numbers["regions"].items()} == {
-        "fire": 1, "doors": 8, "walls": 12}, numbers["regions"]
+    assert means["fire"] < 0.1 and means["doors"] > 0.5, means
+    assert numbers["darkest"][600.0] < 0.2, numbers["darkest"]
+    count = {name: int(mask.sum()) for name, mask in numbers["regions"].items()}
+    assert count["fire"] == 1 and count["walls"] == 6 and count["doors"] >= 8, count
     yield burning_hall, numbers
 
 
