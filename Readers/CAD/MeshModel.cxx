@@ -5,6 +5,7 @@
 #include "CrashGuard.h"
 #include "Errors.h"
 #include "FileHeader.h"
+#include "Ifc4Rewriter.h"
 #include "PlyHeader.h"
 #include "SrgbColor.h"
 
@@ -20,6 +21,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -338,6 +341,12 @@ Matrix ReadHeader(
                 : Matrix(s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1);
 }
 
+std::string Bytes(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -359,10 +368,25 @@ void ReadMeshModel(const std::string& fileName, const CadFormat& format, const C
   importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  std::size_t unread = 0;
+  const std::string rewritten = format.Name == "IFC"
+                                  ? RewriteIfc4(Bytes(fileName), options.AngularTolerance, unread)
+                                  : std::string();
+  if (unread > 0)
+  {
+    model.Warnings.push_back(
+      std::to_string(unread) +
+      " shapes of IFC4, such as IfcAdvancedBrep, are not read and are missing; export tessellated "
+      "geometry or IFC2x3");
+  }
   const aiScene* scene = nullptr;
   const std::string failure = CrashGuard().Run(
-    [&]() {
-      scene = importer->ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+    [&]()
+    {
+      constexpr unsigned int steps = aiProcess_ValidateDataStructure | aiProcess_Triangulate;
+      scene = rewritten.empty()
+                ? importer->ReadFile(fileName, steps)
+                : importer->ReadFileFromMemory(rewritten.data(), rewritten.size(), steps, "ifc");
     });
   std::string why = failure.empty() ? importer->GetErrorString() : failure;
   if (!failure.empty())
