@@ -2,6 +2,7 @@
 #include "PhotometricArrays.h"
 
 #include "Errors.h"
+#include "Sampler.h"
 #include "SceneBlocks.h"
 
 #include <vtkCellData.h>
@@ -10,6 +11,7 @@
 #include <vtkNew.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace smokevis
 {
@@ -99,12 +101,22 @@ Vec3 PhotometricArrays::Axis(vtkIdType cell) const
 }
 
 //------------------------------------------------------------------------------
-void PhotometricArrays::AddTable(vtkPolyData& block, int index, const std::vector<double>& polar,
+int PhotometricArrays::AddTable(vtkPolyData& block, const std::vector<double>& polar,
   const std::vector<double>& azimuth, const std::vector<double>& intensity)
 {
+  std::uint64_t hash = 0;
+  for (const auto* const values : {&polar, &azimuth, &intensity})
+  {
+    for (const double value : *values)
+    {
+      hash = Mix(hash ^ std::bit_cast<std::uint64_t>(value));
+    }
+  }
+  const auto index = static_cast<int>(hash >> 33);
   AddValues(block, ArrayName(index, "Polar"), polar);
   AddValues(block, ArrayName(index, "Azimuth"), azimuth);
   AddValues(block, ArrayName(index, "Intensity"), intensity);
+  return index;
 }
 
 } // namespace smokevis

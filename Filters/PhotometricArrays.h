@@ -29,8 +29,9 @@ public:
   std::shared_ptr<const IntensityTable> Table(vtkIdType cell) const;
   Vec3 Axis(vtkIdType cell) const;
 
-  /// Adds a table, with intensities in cd, to the field data.
-  static void AddTable(vtkPolyData& block, int index, const std::vector<double>& polar,
+  /// Adds a table, with intensities in cd, to the field data. Returns its number, which is made
+  /// from its values, so that tables of data sets that are appended stay apart.
+  static int AddTable(vtkPolyData& block, const std::vector<double>& polar,
     const std::vector<double>& azimuth, const std::vector<double>& intensity);
 
   static constexpr const char* IndexName = "PhotometryIndex";

@@ -40,6 +40,47 @@ std::vector<double> Distinct(const std::vector<double>& lines)
   return result;
 }
 
+bool Coloured(const Spectrum& value)
+{
+  return value[0] != value[1] || value[0] != value[2];
+}
+
+template <class Array>
+vtkSmartPointer<Array> AddArray(
+  vtkCellData& data, const char* name, int components, vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  data.AddArray(array);
+  return array;
+}
+
+/// Bands in the ratios of a colour whose weighted mean is a value.
+Spectrum Tint(double value, const double colour[3], const std::string& name)
+{
+  for (int band = 0; band < 3; ++band)
+  {
+    if (!(colour[band] >= 0.0 && colour[band] <= 1.0))
+    {
+      throw Error(name, "its Color has a component outside 0 to 1",
+        "Give linear red, green and blue between 0 and 1");
+    }
+  }
+  if (colour[0] == colour[1] && colour[0] == colour[2] && colour[0] > 0.0)
+  {
+    return {value, value, value};
+  }
+  const double weight = PhotopicWeights[0] * colour[0] + PhotopicWeights[1] * colour[1] +
+                        PhotopicWeights[2] * colour[2];
+  if (!(weight > 0.0))
+  {
+    throw Error(name, "its Color is black", "Set the luminance to 0 for an unlit plate");
+  }
+  return {value * colour[0] / weight, value * colour[1] / weight, value * colour[2] / weight};
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -79,17 +120,17 @@ PlateFrame PlateFrame::Make(
 
 //------------------------------------------------------------------------------
 void PlateMesh::Add(const Plate& plate, const std::vector<double>& u, const std::vector<double>& v,
-  const std::function<Spectrum(std::size_t, std::size_t)>& luminance)
+  const std::function<CellLook(std::size_t, std::size_t)>& look)
 {
   const std::vector<double> columns = Distinct(u);
   const std::vector<double> rows = Distinct(v);
-  // A cell's luminance is asked for by its place in the lattice as it was given.
+  // A cell's look is asked for by its place in the lattice as it was given.
   const auto given = [](const std::vector<double>& lines, double middle)
   {
     return static_cast<std::size_t>(
       std::upper_bound(lines.begin(), lines.end(), middle) - lines.begin() - 1);
   };
-  const auto first = static_cast<std::int64_t>(this->Points_.size());
+  const auto first = static_cast<vtkIdType>(this->Points_.size());
   for (const double y : rows)
   {
     for (const double x : columns)
@@ -97,18 +138,35 @@ void PlateMesh::Add(const Plate& plate, const std::vector<double>& u, const std:
       this->Points_.push_back(plate.Frame.Centre + x * plate.Frame.Right + y * plate.Frame.Up);
     }
   }
-  const auto stride = static_cast<std::int64_t>(columns.size());
+  const auto stride = static_cast<vtkIdType>(columns.size());
   for (std::size_t j = 0; j + 1 < rows.size(); ++j)
   {
     for (std::size_t i = 0; i + 1 < columns.size(); ++i)
     {
-      const std::int64_t corner =
-        first + static_cast<std::int64_t>(i) + stride * static_cast<std::int64_t>(j);
+      const vtkIdType corner =
+        first + static_cast<vtkIdType>(i) + stride * static_cast<vtkIdType>(j);
       this->Cells_.push_back({{corner, corner + 1, corner + stride + 1, corner + stride},
-        luminance(
+        look(
           given(u, 0.5 * (columns[i] + columns[i + 1])), given(v, 0.5 * (rows[j] + rows[j + 1]))),
         this->Plates_.size()});
     }
+  }
+  this->Plates_.push_back(plate);
+}
+
+//------------------------------------------------------------------------------
+void PlateMesh::Add(const Plate& plate, const std::vector<PlateCell>& cells)
+{
+  for (const PlateCell& cell : cells)
+  {
+    std::vector<vtkIdType> corners;
+    for (const glm::dvec2& corner : cell.Corners)
+    {
+      corners.push_back(static_cast<vtkIdType>(this->Points_.size()));
+      this->Points_.push_back(
+        plate.Frame.Centre + corner.x * plate.Frame.Right + corner.y * plate.Frame.Up);
+    }
+    this->Cells_.push_back({std::move(corners), cell.Look, this->Plates_.size()});
   }
   this->Plates_.push_back(plate);
 }
@@ -125,84 +183,89 @@ vtkSmartPointer<vtkPolyData> PlateMesh::Finish() const
   }
 
   const auto cells = static_cast<vtkIdType>(this->Cells_.size());
-  const bool coloured = std::any_of(this->Cells_.begin(), this->Cells_.end(),
-    [](const Cell& cell)
-    { return cell.Luminance[0] != cell.Luminance[1] || cell.Luminance[0] != cell.Luminance[2]; });
-  const bool named = std::any_of(this->Plates_.begin(), this->Plates_.end(),
-    [](const Plate& plate) { return !plate.Name.empty(); });
+  const auto anyLook = [this](Spectrum CellLook::*value)
+  {
+    return std::any_of(this->Cells_.begin(), this->Cells_.end(),
+      [value](const Cell& cell) { return Coloured(cell.Look.*value); });
+  };
+  const auto anyPlate = [this](auto&& test)
+  { return std::any_of(this->Plates_.begin(), this->Plates_.end(), test); };
+
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkCellData* const data = result->GetCellData();
+  const auto luminance =
+    AddArray<vtkDoubleArray>(*data, "Luminance", anyLook(&CellLook::Luminance) ? 3 : 1, cells);
+  const auto signId = AddArray<vtkIntArray>(*data, "SignId", 1, cells);
+  const auto reflectance =
+    AddArray<vtkDoubleArray>(*data, "Reflectance", anyLook(&CellLook::Reflectance) ? 3 : 1, cells);
+  vtkSmartPointer<vtkIntArray> part;
+  if (anyPlate([](const Plate& plate) { return plate.SignId >= 0; }))
+  {
+    part = AddArray<vtkIntArray>(*data, "SignPart", 1, cells);
+  }
+  vtkSmartPointer<vtkDoubleArray> exponent;
+  if (anyPlate([](const Plate& plate) { return plate.Exponent != 0.0; }))
+  {
+    exponent = AddArray<vtkDoubleArray>(*data, "EmissionExponent", 1, cells);
+  }
+  vtkSmartPointer<vtkStringArray> names;
+  if (anyPlate([](const Plate& plate) { return !plate.Name.empty(); }))
+  {
+    names = AddArray<vtkStringArray>(*data, "SignName", 1, cells);
+  }
 
   vtkNew<vtkCellArray> polys;
-  polys->AllocateExact(cells, 4 * cells);
-  vtkNew<vtkDoubleArray> luminance;
-  luminance->SetName("Luminance");
-  luminance->SetNumberOfComponents(coloured ? 3 : 1);
-  luminance->SetNumberOfTuples(cells);
-  vtkNew<vtkIntArray> signId;
-  signId->SetName("SignId");
-  signId->SetNumberOfTuples(cells);
-  vtkNew<vtkDoubleArray> reflectance;
-  reflectance->SetName("Reflectance");
-  reflectance->SetNumberOfTuples(cells);
-  vtkNew<vtkStringArray> names;
-  names->SetName("SignName");
-  names->SetNumberOfValues(named ? cells : 0);
   for (vtkIdType i = 0; i < cells; ++i)
   {
     const Cell& cell = this->Cells_[i];
     const Plate& plate = this->Plates_[cell.Plate];
-    const vtkIdType corners[4] = {
-      cell.Corners[0], cell.Corners[1], cell.Corners[2], cell.Corners[3]};
-    polys->InsertNextCell(4, corners);
-    luminance->SetTuple(i, cell.Luminance.data());
+    polys->InsertNextCell(static_cast<vtkIdType>(cell.Corners.size()), cell.Corners.data());
+    luminance->SetTuple(i, cell.Look.Luminance.data());
     signId->SetValue(i, plate.SignId);
-    reflectance->SetValue(i, plate.Reflectance);
-    if (named)
+    reflectance->SetTuple(i, cell.Look.Reflectance.data());
+    if (part)
+    {
+      part->SetValue(i, cell.Look.Lit ? 1 : 0);
+    }
+    if (exponent)
+    {
+      exponent->SetValue(i, plate.Exponent);
+    }
+    if (names)
     {
       names->SetValue(i, plate.Name);
     }
   }
-
-  auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   result->SetPolys(polys);
-  result->GetCellData()->AddArray(luminance);
-  result->GetCellData()->AddArray(signId);
-  result->GetCellData()->AddArray(reflectance);
-  if (named)
-  {
-    result->GetCellData()->AddArray(names);
-  }
   return result;
 }
 
 //------------------------------------------------------------------------------
 Spectrum ColouredLuminance(double luminance, const double colour[3], const std::string& name)
 {
-  for (int band = 0; band < 3; ++band)
-  {
-    if (!(colour[band] >= 0.0 && colour[band] <= 1.0))
-    {
-      throw Error(name, "its Color has a component outside 0 to 1",
-        "Give linear red, green and blue between 0 and 1");
-    }
-  }
   if (!(luminance >= 0.0) || !std::isfinite(luminance))
   {
     throw Error(
       name, "its luminance is negative or not finite", "Give a luminance in cd/m2, from 0");
   }
-  if (colour[0] == colour[1] && colour[0] == colour[2] && colour[0] > 0.0)
+  return Tint(luminance, colour, name);
+}
+
+//------------------------------------------------------------------------------
+Spectrum ColouredReflectance(double reflectance, const double colour[3], const std::string& name)
+{
+  if (!(reflectance >= 0.0 && reflectance <= 1.0))
   {
-    return {luminance, luminance, luminance};
+    throw Error(name, "its reflectance is outside 0 to 1", "Give a diffuse reflectance");
   }
-  const double weight = PhotopicWeights[0] * colour[0] + PhotopicWeights[1] * colour[1] +
-                        PhotopicWeights[2] * colour[2];
-  if (!(weight > 0.0))
+  const Spectrum bands = Tint(reflectance, colour, name);
+  if (*std::max_element(bands.begin(), bands.end()) > 1.0 + 1e-9)
   {
-    throw Error(name, "its Color is black", "Set the luminance to 0 for an unlit plate");
+    throw Error(name, "nothing of its colour reflects as much light as its reflectance says",
+      "Give a paler colour or a lower reflectance: pure red at most 0.21, green 0.71, blue 0.07");
   }
-  return {
-    luminance * colour[0] / weight, luminance * colour[1] / weight, luminance * colour[2] / weight};
+  return bands;
 }
 
 } // namespace smokevis

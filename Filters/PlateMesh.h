@@ -4,6 +4,7 @@
 #include "Types.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <functional>
 #include <string>
@@ -30,8 +31,18 @@ struct PlateFrame
     const Vec3& centre, const Vec3& normal, const Vec3& up, const std::string& name);
 };
 
+/// How one cell of a plate looks.
+struct CellLook
+{
+  Spectrum Luminance{};
+  Spectrum Reflectance{};
+  /// Of a sign: whether it belongs to the parts that are to be bright.
+  bool Lit = true;
+};
+
 /// Collects plates and turns them into polydata with the cell arrays Luminance, SignId, Reflectance
-/// and, where a plate has a name, SignName.
+/// and, where a plate is a sign, SignName and SignPart (1: lit, 0: unlit); EmissionExponent where
+/// one is not 0.
 class PlateMesh
 {
 public:
@@ -41,14 +52,22 @@ public:
     PlateFrame Frame;
     int SignId = -1;
     std::string Name;
-    double Reflectance = 0.0;
+    double Exponent = 0.0;
   };
 
   /// Cuts a plate along the lines u (along Right) and v (along Up), ascending, in metres from the
   /// plate's centre. Cells share their corners, so that they neither overlap nor leave a gap.
   /// Strips without width are left out.
   void Add(const Plate& plate, const std::vector<double>& u, const std::vector<double>& v,
-    const std::function<Spectrum(std::size_t, std::size_t)>& luminance);
+    const std::function<CellLook(std::size_t, std::size_t)>& look);
+
+  /// Adds convex cells, counter-clockwise, by their corners in metres from the plate's centre.
+  struct PlateCell
+  {
+    std::vector<glm::dvec2> Corners;
+    CellLook Look;
+  };
+  void Add(const Plate& plate, const std::vector<PlateCell>& cells);
 
   /// The polydata of all plates.
   vtkSmartPointer<vtkPolyData> Finish() const;
@@ -56,8 +75,8 @@ public:
 private:
   struct Cell
   {
-    std::array<std::int64_t, 4> Corners;
-    Spectrum Luminance;
+    std::vector<vtkIdType> Corners;
+    CellLook Look;
     std::size_t Plate;
   };
 
@@ -69,5 +88,7 @@ private:
 /// Band luminances of a linear RGB colour, scaled to a photometric luminance. Throws Error where
 /// the colour is black or has a component outside [0, 1].
 Spectrum ColouredLuminance(double luminance, const double colour[3], const std::string& name);
+/// The same for a reflectance, of which no band may be above 1.
+Spectrum ColouredReflectance(double reflectance, const double colour[3], const std::string& name);
 
 } // namespace smokevis

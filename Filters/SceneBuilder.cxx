@@ -199,6 +199,8 @@ void AddEmitters(const SurfaceBlock& block, int bands, std::vector<EmitterCell>&
     "Give the exponent n of cos^n from 0, 0 for a Lambertian emitter");
   const CheckedArray signId(*block.Mesh, block.Name, "SignId", false, -1.0,
     std::numeric_limits<int>::max(), "Give a whole number from 0, or -1 for a lamp");
+  const CheckedArray part(*block.Mesh, block.Name, "SignPart", false, -1.0, 1.0,
+    "Give 1 for the parts of a sign that are to be bright, 0 for the others, -1 for unknown");
   const CheckedArray reflectance = Reflectance(block);
   const PhotometricArrays photometry(*block.Mesh, block.Name);
   ForEachPolygon(block,
@@ -215,6 +217,7 @@ void AddEmitters(const SurfaceBlock& block, int bands, std::vector<EmitterCell>&
       emitter.Table = photometry.Table(cell);
       emitter.TableAxis = photometry.Axis(cell);
       emitter.SignId = signId ? static_cast<int>(signId.Value(cell)) : -1;
+      emitter.Part = part ? static_cast<int>(part.Value(cell)) : -1;
       emitters.push_back(std::move(emitter));
     });
 }

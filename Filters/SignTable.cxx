@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 
@@ -20,7 +21,20 @@ namespace
 {
 
 const std::vector<std::string> Columns = {"id", "name", "cx", "cy", "cz", "nx", "ny", "nz", "ux",
-  "uy", "uz", "width", "height", "pattern", "bars", "luminance"};
+  "uy", "uz", "width", "height", "preset", "pattern", "design", "bars", "bar_fraction",
+  "square_fraction", "pattern_file", "text", "figure_height", "luminance", "unlit_luminance",
+  "uniformity", "exponent", "red", "green", "blue", "unlit_red", "unlit_green", "unlit_blue",
+  "reflectance", "unlit_reflectance"};
+
+template <class Kind> using Names = std::vector<std::pair<std::string, Kind>>;
+
+const Names<SignPattern> Patterns = {{"Square", SignPattern::Square},
+  {"Barcode", SignPattern::Barcode}, {"Image", SignPattern::Image}, {"Text", SignPattern::Text},
+  {"RunningMan", SignPattern::RunningMan}};
+const Names<SignDesign> Designs = {{"Stencil", SignDesign::Stencil}, {"Panel", SignDesign::Panel}};
+const Names<SignPreset> Presets = {{"Custom", SignPreset::Custom}, {"EN1838", SignPreset::En1838},
+  {"EN1838Smoke", SignPreset::En1838Smoke}, {"ISO3864", SignPreset::Iso3864},
+  {"UL924Stencil", SignPreset::Ul924Stencil}, {"UL924Panel", SignPreset::Ul924Panel}};
 
 /// Header of the column that catches fields beyond the last column.
 const std::string Surplus = "#";
@@ -38,6 +52,16 @@ std::string Lower(std::string text)
   std::transform(text.begin(), text.end(), text.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+std::string ListOfColumns()
+{
+  std::string list;
+  for (const std::string& column : Columns)
+  {
+    list += (list.empty() ? "" : ", ") + column;
+  }
+  return list;
 }
 
 /// The lines that hold something, as one text, and the number of each in the file.
@@ -125,23 +149,25 @@ public:
     return this->Get(column, 0.0);
   }
 
-  SignPattern Pattern(SignPattern otherwise) const
+  template <class Value>
+  Value Kind(const std::string& column, const Names<Value>& names, Value otherwise) const
   {
-    const std::string text = Lower(this->Text("pattern"));
+    const std::string text = this->Text(column);
     if (text.empty())
     {
       return otherwise;
     }
-    for (const auto& [name, pattern] : {std::pair("square", SignPattern::Square),
-           std::pair("barcode", SignPattern::Barcode), std::pair("image", SignPattern::Image)})
+    std::string all;
+    for (const auto& [name, value] : names)
     {
-      if (text == name)
+      if (Lower(text) == Lower(name))
       {
-        return pattern;
+        return value;
       }
+      all += (all.empty() ? "" : ", ") + name;
     }
     throw Error(
-      this->Where_, "the pattern '" + text + "' is not known", "Write Square, Barcode or Image");
+      this->Where_, "the " + column + " '" + text + "' is not known", "Write one of " + all);
   }
 
 private:
@@ -150,9 +176,10 @@ private:
   std::string Where_;
 };
 
-SignPlate ReadSign(const Row& row, const SignPlate& defaults)
+SignPlate ReadSign(const Row& row, const SignPlate& defaults, const std::filesystem::path& folder)
 {
   SignPlate sign = defaults;
+  sign.Apply(row.Kind("preset", Presets, SignPreset::Custom));
   sign.Id = row.Get("id", defaults.Id);
   sign.Name = row.Text("name");
   sign.Centre = {row.Needed("cx"), row.Needed("cy"), row.Needed("cz")};
@@ -162,9 +189,33 @@ SignPlate ReadSign(const Row& row, const SignPlate& defaults)
     row.Get("ux", defaults.Up.x), row.Get("uy", defaults.Up.y), row.Get("uz", defaults.Up.z)};
   sign.Width = row.Get("width", defaults.Width);
   sign.Height = row.Get("height", defaults.Height);
-  sign.Pattern = row.Pattern(defaults.Pattern);
-  sign.Bars = row.Get("bars", defaults.Bars);
-  sign.Luminance = row.Get("luminance", defaults.Luminance);
+  sign.Pattern = row.Kind("pattern", Patterns, sign.Pattern);
+  sign.Design = row.Kind("design", Designs, sign.Design);
+  sign.Bars = row.Get("bars", sign.Bars);
+  sign.BarFraction = row.Get("bar_fraction", sign.BarFraction);
+  sign.SquareFraction = row.Get("square_fraction", sign.SquareFraction);
+  if (const std::string file = row.Text("pattern_file"); !file.empty())
+  {
+    sign.PatternFile = (folder / file).string();
+  }
+  if (const std::string text = row.Text("text"); !text.empty())
+  {
+    sign.Text = text;
+  }
+  sign.FigureHeight = row.Get("figure_height", sign.FigureHeight);
+  sign.Luminance = row.Get("luminance", sign.Luminance);
+  sign.UnlitLuminance = row.Get("unlit_luminance", sign.UnlitLuminance);
+  sign.Uniformity = row.Get("uniformity", sign.Uniformity);
+  sign.EmissionExponent = row.Get("exponent", sign.EmissionExponent);
+  const char* const colours[3] = {"red", "green", "blue"};
+  for (int band = 0; band < 3; ++band)
+  {
+    const std::string colour = colours[band];
+    sign.Colour[band] = row.Get(colour, sign.Colour[band]);
+    sign.UnlitColour[band] = row.Get("unlit_" + colour, sign.UnlitColour[band]);
+  }
+  sign.Reflectance = row.Get("reflectance", sign.Reflectance);
+  sign.UnlitReflectance = row.Get("unlit_reflectance", sign.UnlitReflectance);
   return sign;
 }
 
@@ -205,10 +256,7 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
     if (!known && name != Surplus)
     {
       throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
-        "the column '" + name + "' is not known",
-        "The columns are id, name, cx, cy, cz, nx, ny, nz, ux, uy, uz, width, height, pattern, "
-        "bars, "
-        "luminance");
+        "the column '" + name + "' is not known", "The columns are " + ListOfColumns());
     }
     columns[name] = column;
   }
@@ -237,7 +285,7 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
     SignPlate start = defaults;
     start.Id = defaults.Id + static_cast<int>(i);
     start.Origin = place;
-    SignPlate sign = ReadSign(row, start);
+    SignPlate sign = ReadSign(row, start, std::filesystem::path(fileName).parent_path());
     const auto [first, added] = lineOfId.emplace(sign.Id, line);
     if (!added)
     {

@@ -2,9 +2,12 @@
 
 #include "SignPlate.h"
 
+#include <vtkFieldData.h>
 #include <vtkInformationVector.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 
@@ -14,12 +17,14 @@ vtkStandardNewMacro(vtkExitSignSource);
 vtkExitSignSource::vtkExitSignSource()
 {
   this->SetNumberOfInputPorts(0);
+  this->SetText("EXIT");
 }
 
 //------------------------------------------------------------------------------
 vtkExitSignSource::~vtkExitSignSource()
 {
   this->SetPatternFile(nullptr);
+  this->SetText(nullptr);
   this->SetSignTable(nullptr);
 }
 
@@ -38,13 +43,23 @@ int vtkExitSignSource::RequestData(
     sign.Width = this->Width;
     sign.Height = this->Height;
     sign.Pattern = static_cast<smokevis::SignPattern>(this->Pattern);
+    sign.Design = static_cast<smokevis::SignDesign>(this->Design);
     sign.Bars = this->Bars;
+    sign.BarFraction = this->BarFraction;
     sign.SquareFraction = this->SquareFraction;
     sign.PatternFile = this->PatternFile ? this->PatternFile : "";
+    sign.Text = this->Text ? this->Text : "";
+    sign.FigureHeight = this->FigureHeight;
     sign.Luminance = this->Luminance;
     sign.UnlitLuminance = this->UnlitLuminance;
+    sign.Uniformity = this->Uniformity;
+    sign.EmissionExponent = this->EmissionExponent;
     std::copy_n(this->Color, 3, sign.Colour);
+    std::copy_n(this->UnlitColor, 3, sign.UnlitColour);
     sign.Reflectance = this->Reflectance;
+    sign.UnlitReflectance = this->UnlitReflectance;
+    const auto preset = static_cast<smokevis::SignPreset>(this->Preset);
+    sign.Apply(preset);
 
     smokevis::PlateMesh mesh;
     if (this->SignTable && *this->SignTable)
@@ -59,6 +74,10 @@ int vtkExitSignSource::RequestData(
       smokevis::AddSign(sign, mesh);
     }
     output->ShallowCopy(mesh.Finish());
+    vtkNew<vtkStringArray> source;
+    source->SetName("PresetSource");
+    source->InsertNextValue(smokevis::PresetSource(preset));
+    output->GetFieldData()->AddArray(source);
     return 1;
   }
   catch (const std::exception& error)
@@ -80,14 +99,23 @@ void vtkExitSignSource::PrintSelf(ostream& os, vtkIndent indent)
   vector("Up", this->Up);
   os << indent << "Width: " << this->Width << "\n";
   os << indent << "Height: " << this->Height << "\n";
+  os << indent << "Preset: " << this->Preset << "\n";
   os << indent << "Pattern: " << this->Pattern << "\n";
+  os << indent << "Design: " << this->Design << "\n";
   os << indent << "Bars: " << this->Bars << "\n";
+  os << indent << "BarFraction: " << this->BarFraction << "\n";
   os << indent << "SquareFraction: " << this->SquareFraction << "\n";
   os << indent << "PatternFile: " << (this->PatternFile ? this->PatternFile : "(none)") << "\n";
+  os << indent << "Text: " << (this->Text ? this->Text : "(none)") << "\n";
+  os << indent << "FigureHeight: " << this->FigureHeight << "\n";
   os << indent << "Luminance: " << this->Luminance << "\n";
   os << indent << "UnlitLuminance: " << this->UnlitLuminance << "\n";
+  os << indent << "Uniformity: " << this->Uniformity << "\n";
+  os << indent << "EmissionExponent: " << this->EmissionExponent << "\n";
   vector("Color", this->Color);
+  vector("UnlitColor", this->UnlitColor);
   os << indent << "Reflectance: " << this->Reflectance << "\n";
+  os << indent << "UnlitReflectance: " << this->UnlitReflectance << "\n";
   os << indent << "SignId: " << this->SignId << "\n";
   os << indent << "SignTable: " << (this->SignTable ? this->SignTable : "(none)") << "\n";
 }

@@ -2,9 +2,18 @@
  * @class   vtkLuminaireSource
  * @brief   plane lamps, one or a grid of them
  *
- * Makes rectangular lamps that shine evenly (Lambertian) from their front, the right-hand side of
- * their quads. The output has a quad a lamp, with the cell arrays `Luminance` [cd/m2], `SignId`
- * (-1: a lamp, not a sign) and `Reflectance`.
+ * Makes rectangular lamps that shine evenly (Lambertian), or as a photometric file says, from their
+ * front, the right-hand side of their quads. The output has a quad a lamp, with the cell arrays
+ * `Luminance` [cd/m2], `SignId` (-1: a lamp, not a sign) and `Reflectance`.
+ *
+ * With a photometric file a lamp that shines up as well as down has a second quad, back to back
+ * with the first at the height of the luminous opening, 1 mm at least. `Luminance` is then flux /
+ * (pi area), and each cell has the number i of its table, which is made from the table's values, in
+ * `PhotometryIndex`, and the direction of horizontal angle 0 in `PhotometryAxis`; the tables are
+ * the field data `Photometry<i>Polar` and `Photometry<i>Azimuth` [degrees] and
+ * `Photometry<i>Intensity` [cd]. The field data `LampFlux` [lm] is the flux of one lamp, the
+ * integral of its intensities, and `RatedFlux` [lm] that of its bare light source as the file gives
+ * it, -1 where it does not. A lamp that sends out more than its light source makes the source warn.
  */
 #ifndef vtkLuminaireSource_h
 #define vtkLuminaireSource_h
@@ -72,11 +81,32 @@ public:
 
   ///@{
   /**
-   * Luminous flux of each lamp [lm], from 0. Above 0 it sets the luminance: flux / (pi area).
-   * Default: 0.
+   * Luminous flux of each lamp [lm], from 0. Above 0 it sets the luminance, flux / (pi area), or
+   * scales the intensities of the photometric file. Default: 0.
    */
   vtkSetMacro(LuminousFlux, double);
   vtkGetMacro(LuminousFlux, double);
+  ///@}
+
+  ///@{
+  /**
+   * File of IES LM-63, type C, with the luminous intensities of a real fitting. They are kept in
+   * candela where LuminousFlux is 0; Luminance does not count. Vertical angle 0 is Normal,
+   * horizontal angle 0 is Up, and 90 degrees counter-clockwise from above for a lamp that shines
+   * down. Default: none, a lamp with the same luminance in all directions.
+   */
+  vtkSetFilePathMacro(PhotometricFile);
+  vtkGetFilePathMacro(PhotometricFile);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the size of the luminous opening in the photometric file, where it has one, replaces
+   * Width (horizontal angles 90 to 270) and Height (0 to 180). Default: on.
+   */
+  vtkSetMacro(SizeFromFile, vtkTypeBool);
+  vtkGetMacro(SizeFromFile, vtkTypeBool);
+  vtkBooleanMacro(SizeFromFile, vtkTypeBool);
   ///@}
 
   ///@{
@@ -116,13 +146,16 @@ public:
 
 protected:
   vtkLuminaireSource();
-  ~vtkLuminaireSource() override = default;
+  ~vtkLuminaireSource() override;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkLuminaireSource(const vtkLuminaireSource&) = delete;
   void operator=(const vtkLuminaireSource&) = delete;
+
+  /// Throws where lamps of a size cannot be made as the properties say.
+  void CheckProperties(double width, double height) const;
 
   double Center[3] = {0.0, 0.0, 0.0};
   double Normal[3] = {0.0, 0.0, -1.0};
@@ -131,6 +164,8 @@ private:
   double Height = 0.6;
   double Luminance = 3000.0;
   double LuminousFlux = 0.0;
+  char* PhotometricFile = nullptr;
+  vtkTypeBool SizeFromFile = 1;
   double Color[3] = {1.0, 1.0, 1.0};
   double Reflectance = 0.0;
   int Count[2] = {1, 1};

@@ -75,7 +75,8 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
   const SmvSlice& slice = *plane.Slice;
   if (!plane.File)
   {
-    auto file = std::make_unique<SliceFile>(index_.Resolve(slice.File), slice.CellCentred);
+    auto file = std::make_unique<SliceFile>(
+      index_.Resolve(slice.File), slice.CellCentred, "slice of " + slice.Quantity.LongLabel);
     if (file->Range() != slice.Range)
     {
       throw Error(file->Path(), "its index range is not the one that the index gives",

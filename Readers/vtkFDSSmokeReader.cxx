@@ -120,6 +120,7 @@ struct vtkFDSSmokeReader::vtkInternals
   // The geometry of last time, for time steps at which nothing changed.
   vtkSmartPointer<vtkPolyData> Geometry;
   std::vector<bool> GeometryChanges;
+  bool GeometryMoves = false;
   double GeometryThreshold = 0.0;
 };
 
@@ -499,16 +500,23 @@ void vtkFDSSmokeReader::ReadGeometry(vtkInformation* outInfo)
     return;
   }
   const std::vector<bool> changes = ChangesAt(*own.Index, time);
-  if (!own.Geometry || own.GeometryChanges != changes ||
+  if (!own.Geometry || own.GeometryMoves || own.GeometryChanges != changes ||
       own.GeometryThreshold != this->TransparencyThreshold)
   {
     own.Geometry = vtkSmartPointer<vtkPolyData>::New();
-    if (smokevis::BuildWalls(*own.Index, time, this->TransparencyThreshold, own.Geometry))
+    const smokevis::WallReport report =
+      smokevis::BuildWalls(*own.Index, time, this->TransparencyThreshold, own.Geometry);
+    if (report.Mirrors)
     {
       vtkWarningMacro(
         "The run has MIRROR boundaries: they are taken as diffuse walls, and what they "
         "would mirror is missing from images.");
     }
+    for (const std::string& warning : report.Warnings)
+    {
+      vtkWarningMacro(<< warning);
+    }
+    own.GeometryMoves = report.Moves;
     own.GeometryChanges = changes;
     own.GeometryThreshold = this->TransparencyThreshold;
   }

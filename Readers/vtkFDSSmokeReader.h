@@ -27,10 +27,11 @@
  * Plot3D; slices of VISIBILITY; 8-bit smoke that holds opacity. Parts of a mesh are completed by
  * the next best. Smoke species add. Of nodes, a cell gets the mean of its eight.
  *
- * Output 1, Geometry, is a vtkPolyData of rectangles with their front towards the gas: obstructions
- * and the outer boundaries of the meshes that are not open. Cell arrays:
+ * Output 1, Geometry, is a vtkPolyData with fronts towards the gas: rectangles of obstructions and
+ * of the outer boundaries of the meshes that are not open, and triangles of complex geometry
+ * (GEOM). Cell arrays:
  *  - `Reflectance` (float, 3 components, 0 to 1): linear red, green, blue from the sRGB colour of
- * the obstruction, else of the surface.
+ * the obstruction, else from the surface's texture, an image beside the index, or its colour.
  *  - `SurfaceName` (string): FDS's name of the surface.
  *
  * Output 2, Devices, is a vtkTable with a column `Time` [s] and one a device; its field data name

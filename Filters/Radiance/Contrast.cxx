@@ -51,8 +51,8 @@ bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell
   return cells[shapes.Cell(hit)].SignId == cells[cell].SignId;
 }
 
-/// Whether a cell counts as lit: brighter, by itself, than half the brightest of its sign. A sign
-/// that only reflects is judged by its reflectance.
+/// Whether a cell counts as lit: as it says or, where it does not, brighter by itself than half the
+/// brightest of its sign. A sign that only reflects is judged by its reflectance.
 std::vector<bool> LitCells(const View& view, const Sign& sign)
 {
   const EmitterSet& lights = view.TheScene().Lights();
@@ -78,7 +78,8 @@ std::vector<bool> LitCells(const View& view, const Sign& sign)
   std::vector<bool> lit(lights.Cells().size(), false);
   for (const std::size_t cell : sign.Cells)
   {
-    lit[cell] = brightness[cell] > 0.5 * (brightest + darkest);
+    const int part = lights.Cells()[cell].Part;
+    lit[cell] = part < 0 ? brightness[cell] > 0.5 * (brightest + darkest) : part == 1;
   }
   return lit;
 }

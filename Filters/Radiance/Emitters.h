@@ -27,6 +27,9 @@ struct EmitterCell
   Spectrum Reflectance{};
   /// Cells of one sign share an id >= 0; -1: a lamp.
   int SignId = -1;
+  /// Of a sign: 1 for the parts that are to be bright, 0 for the others, -1 where that is to be
+  /// told from their brightness.
+  int Part = -1;
 };
 
 /// A sign: emitter cells with one id.

@@ -3,6 +3,7 @@
 #include "DirectLight.h"
 #include "Errors.h"
 #include "LineSweep.h"
+#include "PlateGather.h"
 #include "Sampler.h"
 #include "Settling.h"
 #include "VeilProbes.h"
@@ -32,8 +33,6 @@ constexpr double DriftShare = 1.0;
 /// A field is not scaled by more than this at once.
 constexpr double SmallestScale = 0.25;
 constexpr double LargestScale = 1e3;
-/// A sign whose area is a larger share of the surface of the box around the scene is a wall.
-constexpr double LargestPlate = 0.02;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -54,7 +53,6 @@ private:
   void SolveCells();
   void SolvePatches();
   void SolveMultiple(int band);
-  void ShareOverPlates(int band);
   void Balance(const LineSweep& sweep, int sweeps, std::vector<double>& before,
     std::vector<BatchState>& batches) const;
   int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
@@ -354,60 +352,19 @@ void Solver::SolveMultiple(int band)
       lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
     }
   }
-  this->ShareOverPlates(band);
+  const auto [plates, rays] = PlateGather(this->Scene_, this->Options_, this->Field_, band).Run();
   this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
     "each cell is crossed about 1.5 times");
+  if (plates > 0)
+  {
+    this->Say(name + "rays gathered by signs", static_cast<double>(rays),
+      std::to_string(plates) + " plates reflect light that lines would rarely bring");
+  }
   this->Say(name + "relative standard error of the veil", error,
     error <= ErrorShare * this->Options_.Tolerance ? "tolerance met" : "most sweeps reached");
-}
-
-void Solver::ShareOverPlates(int band)
-{
-  // Lines meet the cells of a sign's pattern too rarely to tell them apart, and their noise would
-  // pass for a pattern. Indirect light hardly varies over a plate that is small against the scene.
-  const EmitterSet& lights = this->Scene_.Lights();
-  const Vec3 size = this->Scene_.Upper() - this->Scene_.Lower();
-  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  for (const Sign& sign : lights.Signs())
-  {
-    double area = 0.0;
-    bool plane = true;
-    for (const std::size_t cell : sign.Cells)
-    {
-      area += lights.CellArea(cell);
-      plane = plane && glm::dot(lights.CellNormal(cell), sign.Normal) > 1.0 - 1e-6;
-    }
-    if (!plane || area > LargestPlate * box)
-    {
-      continue;
-    }
-    for (int side = 0; side < 2; ++side)
-    {
-      const auto lanesOf = [&](std::size_t cell) -> Lanes&
-      {
-        return this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
-          band, this->Scene_.SurfacePatches() + cell, side)];
-      };
-      std::array<double, Batches> sum{};
-      for (const std::size_t cell : sign.Cells)
-      {
-        for (int batch = 0; batch < Batches; ++batch)
-        {
-          sum[batch] += lights.CellArea(cell) / area * lanesOf(cell)[batch];
-        }
-      }
-      for (const std::size_t cell : sign.Cells)
-      {
-        for (int batch = 0; batch < Batches; ++batch)
-        {
-          lanesOf(cell)[batch] = static_cast<float>(sum[batch]);
-        }
-      }
-    }
-  }
 }
 
 bool Solver::BandsEqual(int a, int b) const

@@ -18,8 +18,6 @@
 #include <Message_ProgressScope.hxx>
 #include <RWMesh_FaceIterator.hxx>
 #include <STEPCAFControl_Reader.hxx>
-#include <Standard_ErrorHandler.hxx>
-#include <Standard_Failure.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
@@ -412,17 +410,11 @@ void ReadBRepModel(
   const std::string& fileName, const CadOptions& options, Progress& progress, CadModel& model)
 {
   const BRepSession session;
-  try
+  const std::string failure =
+    session.Run([&]() { ReadModel(fileName, options, progress, session, model); });
+  if (!failure.empty())
   {
-    OCC_CATCH_SIGNALS
-    ReadModel(fileName, options, progress, session, model);
-  }
-  catch (const Standard_Failure& failure)
-  {
-    const char* const text = failure.GetMessageString();
-    throw Error(fileName,
-      std::string("Open CASCADE failed on it (") + failure.DynamicType()->Name() +
-        (text && *text ? std::string(": ") + text : "") + ")",
+    throw Error(fileName, "Open CASCADE failed on it (" + failure + ")",
       "Check that the file is complete, or export it again");
   }
 }

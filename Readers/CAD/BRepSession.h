@@ -2,14 +2,14 @@
 // talks to the console.
 #pragma once
 
+#include "CrashGuard.h"
 #include "Progress.h"
 
 #include <Message_Printer.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Message_SequenceOfPrinters.hxx>
 
-#include <array>
-#include <csignal>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -33,8 +33,7 @@ private:
 };
 
 /// While one is alive no other thread reads a file through Open CASCADE, its messages go to
-/// Messages, lengths come in millimetres, and what damaged files make it do with invalid addresses
-/// is thrown as Standard_Failure where OCC_CATCH_SIGNALS stands.
+/// Messages and lengths come in millimetres.
 class BRepSession
 {
 public:
@@ -44,12 +43,13 @@ public:
   BRepSession& operator=(const BRepSession&) = delete;
 
   const std::string& Messages() const { return this->Messages_->Text(); }
+  /// Does work with Open CASCADE; what failed in it, or blank.
+  std::string Run(const std::function<void()>& work) const { return this->Guard_.Run(work); }
 
 private:
-  std::unique_lock<std::mutex> Lock_;
+  CrashGuard Guard_;
   Handle(BRepMessages) Messages_;
   Message_SequenceOfPrinters Printers_;
-  std::array<struct sigaction, 8> Actions_{};
 };
 
 /// Passes the progress of Open CASCADE on, and the wish to stop to it.

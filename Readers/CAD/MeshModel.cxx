@@ -1,8 +1,12 @@
 // Reads meshes through assimp.
 #include "MeshModel.h"
 
+#include "ColladaNumbers.h"
+#include "CrashGuard.h"
 #include "Errors.h"
 #include "FileHeader.h"
+#include "Ifc4Rewriter.h"
+#include "PlyHeader.h"
 #include "SrgbColor.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -17,7 +21,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <set>
 
 namespace smokevis
@@ -334,28 +341,66 @@ Matrix ReadHeader(
                 : Matrix(s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1);
 }
 
+std::string Bytes(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
 void ReadMeshModel(const std::string& fileName, const CadFormat& format, const CadOptions& options,
   Progress& progress, CadModel& model)
 {
+  if (format.Name == "PLY")
+  {
+    CheckPlyHeader(fileName);
+  }
+  else if (format.Name == "COLLADA")
+  {
+    CheckColladaNumbers(fileName);
+  }
   std::set<std::string> missing;
-  Assimp::Importer importer;
-  importer.SetIOHandler(new ImportFiles(missing));
-  importer.SetProgressHandler(new ImportProgress(progress));
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
-  const aiScene* const scene =
-    importer.ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+  auto importer = std::make_unique<Assimp::Importer>();
+  importer->SetIOHandler(new ImportFiles(missing));
+  importer->SetProgressHandler(new ImportProgress(progress));
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  std::size_t unread = 0;
+  const std::string rewritten = format.Name == "IFC"
+                                  ? RewriteIfc4(Bytes(fileName), options.AngularTolerance, unread)
+                                  : std::string();
+  if (unread > 0)
+  {
+    model.Warnings.push_back(
+      std::to_string(unread) +
+      " shapes of IFC4, such as IfcAdvancedBrep, are not read and are missing; export tessellated "
+      "geometry or IFC2x3");
+  }
+  const aiScene* scene = nullptr;
+  const std::string failure = CrashGuard().Run(
+    [&]()
+    {
+      constexpr unsigned int steps = aiProcess_ValidateDataStructure | aiProcess_Triangulate;
+      scene = rewritten.empty()
+                ? importer->ReadFile(fileName, steps)
+                : importer->ReadFileFromMemory(rewritten.data(), rewritten.size(), steps, "ifc");
+    });
+  std::string why = failure.empty() ? importer->GetErrorString() : failure;
+  if (!failure.empty())
+  {
+    // It was left in the middle of its work: deleting it would follow the same pointers again.
+    static_cast<void>(importer.release());
+    scene = nullptr;
+  }
   if (progress.ShouldStop())
   {
     return;
   }
   if (!scene || !scene->mRootNode)
   {
-    std::string why = importer.GetErrorString();
     why.erase(why.find_last_not_of(". \n") + 1);
     throw Error(fileName,
       "it cannot be read as " + std::string(format.Name) + (why.empty() ? "" : " (" + why + ")"),

@@ -34,8 +34,8 @@ FlameSource::FlameSource(const SmvFile& index, FlameModel model)
       VolumeField field(index, std::move(candidate));
       if (!field.File().Damage().empty())
       {
-        warnings_.push_back(
-          field.File().Path() + ": " + field.File().Damage() + "; the other frames are used.");
+        warnings_.push_back(field.File().Path() + ": " + field.File().Damage() + " (" +
+                            field.Of().Label.LongLabel + "); the other frames are used.");
       }
       text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index.Meshes[mesh].Name
            << "': " << field.Of().Label.LongLabel << " [" << field.Of().Label.Unit << "], "

@@ -36,18 +36,20 @@ public:
   static constexpr std::uint64_t MarkerBytes = 8;
 
   /// Opens @p path, whose first record must be @p firstRecordBytes long in either byte order.
-  FortranRecords(std::string path, std::uint32_t firstRecordBytes) : path_(std::move(path))
+  /// @param what what the file is in messages, e.g. "slice of TEMPERATURE"
+  FortranRecords(std::string path, std::uint32_t firstRecordBytes, std::string what)
+      : path_(std::move(path)), what_(std::move(what))
   {
     std::error_code problem;
     size_ = std::filesystem::file_size(path_, problem);
     if (problem)
     {
-      throw Error(path_, "the file cannot be opened (" + problem.message() + ")",
+      throw Error(path_, "the " + what_ + " cannot be opened (" + problem.message() + ")",
         "Copy the file that the index names beside the index, or run FDS again");
     }
     if (size_ < sizeof(std::uint32_t))
     {
-      throw Error(path_, "the file is empty",
+      throw Error(this->At(0), "the " + what_ + " is empty",
         "The run may not have written it yet: wait for it, or run FDS again");
     }
     std::uint32_t marker = 0;
@@ -56,13 +58,14 @@ public:
     if (swapped_ && SwapBytes(marker) != firstRecordBytes)
     {
       throw Error(this->At(0),
-        "the first record is not " + std::to_string(firstRecordBytes) +
+        "the first record of the " + what_ + " is not " + std::to_string(firstRecordBytes) +
           " bytes long in either byte order",
         "This is not the kind of FDS file that the index says it is");
     }
   }
 
   const std::string& Path() const { return path_; }
+  const std::string& What() const { return what_; }
   std::uint64_t Size() const { return size_; }
 
   /// "path, byte N", the place of a fault for messages.
@@ -89,13 +92,14 @@ public:
     if (!this->Holds(offset, bytes))
     {
       throw Error(this->At(offset),
-        "the file ends inside a record of " + std::to_string(bytes) + " bytes",
+        "the " + what_ + " ends inside a record of " + std::to_string(bytes) + " bytes",
         "The run may have been stopped while it wrote: read an earlier time");
     }
     if (this->Word(offset) != bytes || this->Word(offset + 4 + bytes) != bytes)
     {
       throw Error(this->At(offset),
-        "the record's length markers do not say " + std::to_string(bytes) + " bytes",
+        "the length markers of a record of the " + what_ + " do not say " + std::to_string(bytes) +
+          " bytes",
         "The file is damaged or does not belong to this index");
     }
     this->ReadInside(offset + 4, values);
@@ -139,19 +143,22 @@ private:
       stream_.open(path_, std::ios::binary);
       if (!stream_)
       {
-        throw Error(path_, "the file cannot be opened for reading", "Check its permissions");
+        throw Error(
+          path_, "the " + what_ + " cannot be opened for reading", "Check its permissions");
       }
     }
     stream_.seekg(static_cast<std::streamoff>(offset));
     stream_.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes));
     if (!stream_)
     {
-      throw Error(this->At(offset), "reading " + std::to_string(bytes) + " bytes failed",
+      throw Error(this->At(offset),
+        "reading " + std::to_string(bytes) + " bytes of the " + what_ + " failed",
         "Check the disk, or whether the file is being rewritten");
     }
   }
 
   std::string path_;
+  std::string what_;
   std::ifstream stream_;
   std::uint64_t size_ = 0;
   bool swapped_ = false;

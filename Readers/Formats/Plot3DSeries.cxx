@@ -7,8 +7,8 @@ namespace smokevis
 
 //------------------------------------------------------------------------------------------------
 Plot3DSeries::Plot3DSeries(const std::vector<std::pair<double, std::string>>& files, int component,
-  const std::array<int, 3>& nodes)
-    : nodes_(nodes), component_(component)
+  const std::array<int, 3>& nodes, const std::string& what)
+    : nodes_(nodes), component_(component), what_("Plot3D file of " + what)
 {
   for (const auto& [time, path] : files)
   {
@@ -34,12 +34,13 @@ Plot3DSeries::Plot3DSeries(const std::vector<std::pair<double, std::string>>& fi
 //------------------------------------------------------------------------------------------------
 void Plot3DSeries::ReadFrame(std::size_t frame, std::vector<float>& values)
 {
-  FortranRecords records(paths_[frame], sizeof(nodes_));
+  FortranRecords records(paths_[frame], sizeof(nodes_), what_);
   std::array<int, 3> nodes{};
   const std::uint64_t parametersAt = records.Read(0, std::span<int>(nodes));
   if (nodes != nodes_)
   {
-    throw Error(records.At(0), "its number of nodes is not that of the mesh in the index",
+    throw Error(records.At(0),
+      "the number of nodes of the " + what_ + " is not that of the mesh in the index",
       "The two are of different runs: copy both from the same one");
   }
   std::array<float, 4> parameters{};
@@ -48,7 +49,8 @@ void Plot3DSeries::ReadFrame(std::size_t frame, std::vector<float>& values)
   const std::uint64_t bytes = count * sizeof(float);
   if (!records.Holds(valuesAt, 5 * bytes) || records.Word(valuesAt) != 5 * bytes)
   {
-    throw Error(records.At(valuesAt), "the file does not hold five quantities on every node",
+    throw Error(records.At(valuesAt),
+      "the " + what_ + " does not hold five quantities on every node",
       "The run may have been stopped while it wrote: read another time");
   }
   values.resize(count);

@@ -14,9 +14,10 @@ class Plot3DSeries : public FrameFile
 public:
   /// @param files     time [s] and path of each file; ones that are missing are left out
   /// @param component which of the five quantities, 0 to 4
+  /// @param what      what it is called in messages
   /// @param nodes     number of nodes of the mesh along x, y, z
   Plot3DSeries(const std::vector<std::pair<double, std::string>>& files, int component,
-    const std::array<int, 3>& nodes);
+    const std::array<int, 3>& nodes, const std::string& what = "quantity");
 
   const std::string& Path() const override { return paths_.front(); }
   const std::array<int, 3>& Dimensions() const override { return nodes_; }
@@ -27,6 +28,7 @@ public:
 private:
   std::array<int, 3> nodes_;
   int component_;
+  std::string what_;
   std::vector<std::string> paths_;
   std::vector<double> times_;
   std::string damage_;

@@ -18,8 +18,8 @@ constexpr std::uint64_t LongestRecord = 2147483639;
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-SliceFile::SliceFile(const std::string& path, bool cellCentred)
-    : records_(path, LabelBytes), cellCentred_(cellCentred)
+SliceFile::SliceFile(const std::string& path, bool cellCentred, const std::string& what)
+    : records_(path, LabelBytes, what), cellCentred_(cellCentred)
 {
   std::uint64_t offset = 0;
   for (std::string* label : {&quantity_.LongLabel, &quantity_.ShortLabel, &quantity_.Unit})
@@ -37,7 +37,8 @@ SliceFile::SliceFile(const std::string& path, bool cellCentred)
     const std::int64_t high = range_[2 * axis + 1];
     if (low < 0 || high < low)
     {
-      throw Error(records_.At(rangeOffset), "the slice's index range is reversed or negative",
+      throw Error(records_.At(rangeOffset),
+        "the index range of the " + what + " is reversed or negative",
         "The file is damaged: run FDS again");
     }
     stored_[axis] = static_cast<int>(std::min<std::int64_t>(high - low + 1, LongestRecord));
@@ -47,7 +48,8 @@ SliceFile::SliceFile(const std::string& path, bool cellCentred)
     values *= static_cast<std::uint64_t>(stored_[axis]);
     if (values * sizeof(float) > LongestRecord)
     {
-      throw Error(records_.At(rangeOffset), "the slice's index range is too large for one record",
+      throw Error(records_.At(rangeOffset),
+        "the index range of the " + what + " is too large for one record",
         "The file is damaged: run FDS again");
     }
   }
@@ -56,7 +58,8 @@ SliceFile::SliceFile(const std::string& path, bool cellCentred)
   records_.Close();
   if (times_.empty())
   {
-    throw Error(path, "the slice holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
+    throw Error(records_.At(firstFrame_),
+      "the " + what + " holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
       "Wait until the run has written one, or run FDS again");
   }
 }
@@ -95,13 +98,19 @@ void SliceFile::IndexFrames()
 }
 
 //------------------------------------------------------------------------------------------------
-void SliceFile::ReadFrame(std::size_t frame, std::vector<float>& values)
+void SliceFile::ReadStored(std::size_t frame, std::vector<float>& values)
 {
   const std::uint64_t frameBytes = TimeRecordBytes + valueBytes_ + FortranRecords::MarkerBytes;
   const std::uint64_t offset = firstFrame_ + frame * frameBytes + TimeRecordBytes;
   values.resize(valueBytes_ / sizeof(float));
   records_.Read(offset, std::span<float>(values));
   records_.Close();
+}
+
+//------------------------------------------------------------------------------------------------
+void SliceFile::ReadFrame(std::size_t frame, std::vector<float>& values)
+{
+  this->ReadStored(frame, values);
   if (dimensions_ == stored_)
   {
     return;

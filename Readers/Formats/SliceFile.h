@@ -17,9 +17,10 @@ namespace smokevis
 class SliceFile : public FrameFile
 {
 public:
+  /// @param what what it is called in messages
   /// Opens @p path, a node-centred (SLCF) or cell-centred (SLCC) slice. Throws Error when it is
   /// missing, empty, not a slice file, or holds no whole frame.
-  SliceFile(const std::string& path, bool cellCentred);
+  SliceFile(const std::string& path, bool cellCentred, const std::string& what = "slice");
 
   const std::string& Path() const override { return records_.Path(); }
   const SmvQuantity& Quantity() const { return quantity_; }
@@ -34,6 +35,8 @@ public:
   const std::string& Damage() const override { return damage_; }
 
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
+  const std::array<int, 3>& StoredDimensions() const override { return stored_; }
+  void ReadStored(std::size_t frame, std::vector<float>& values) override;
 
 private:
   void IndexFrames();

@@ -71,8 +71,9 @@ bool DecodeRuns(std::span<const unsigned char> coded, std::span<unsigned char> b
 }
 
 //------------------------------------------------------------------------------------------------
-Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes, double firstCell)
-    : records_(TwinOrSelf(path), HeaderBytes), nodes_(nodes), firstCell_(firstCell),
+Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes, double firstCell,
+  const std::string& what)
+    : records_(TwinOrSelf(path), HeaderBytes, what), nodes_(nodes), firstCell_(firstCell),
       scale_(records_.Path() != path ? Scale::Density : Scale::Opacity)
 {
   this->Open();
@@ -82,15 +83,15 @@ Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& node
   }
   if (times_.empty())
   {
-    throw Error(records_.Path(), "the 3-D smoke file holds no whole frame: " + damage_,
+    throw Error(records_.Path(), "the " + what + " holds no whole frame: " + damage_,
       "Wait until the run has written one, or run FDS again");
   }
 }
 
 //------------------------------------------------------------------------------------------------
-Smoke3DFile::Smoke3DFile(
-  const std::string& path, const std::array<int, 3>& nodes, const std::array<double, 2>& range)
-    : records_(path, HeaderBytes), nodes_(nodes), range_(range), scale_(Scale::Range)
+Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes,
+  const std::array<double, 2>& range, const std::string& what)
+    : records_(path, HeaderBytes, what), nodes_(nodes), range_(range), scale_(Scale::Range)
 {
   this->Open();
 }
@@ -103,8 +104,8 @@ void Smoke3DFile::Open()
   records_.Close();
   if (times_.empty())
   {
-    throw Error(records_.Path(),
-      "the 3-D smoke file holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
+    throw Error(records_.At(HeaderBytes + FortranRecords::MarkerBytes),
+      "the " + records_.What() + " holds no whole frame" + (damage_.empty() ? "" : ": " + damage_),
       "Wait until the run has written one, or run FDS again");
   }
 }
@@ -115,7 +116,7 @@ bool Smoke3DFile::HoldsDensity(const std::string& path)
   try
   {
     std::array<int, 8> header{};
-    FortranRecords(TwinOrSelf(path), HeaderBytes).Read(0, std::span<int>(header));
+    FortranRecords(TwinOrSelf(path), HeaderBytes, "3-D smoke").Read(0, std::span<int>(header));
     return TwinOrSelf(path) != path || header[1] == 1;
   }
   catch (const Error&)
@@ -144,7 +145,8 @@ void Smoke3DFile::ReadHeader()
   {
     if (header[2 + 2 * axis] != 0 || header[3 + 2 * axis] != nodes_[axis] - 1)
     {
-      throw Error(records_.At(0), "its index range is not that of the mesh in the index",
+      throw Error(records_.At(0),
+        "the index range of the " + records_.What() + " is not that of the mesh in the index",
         "The two are of different runs: copy both from the same one");
     }
   }
@@ -258,7 +260,8 @@ void Smoke3DFile::ReadFrame(std::size_t frame, std::vector<float>& values)
   if (!possible || !DecodeRuns(coded_, bytes_))
   {
     throw Error(records_.At(place.Offset),
-      "the compressed frame does not unpack to " + std::to_string(count) + " values",
+      "a compressed frame of the " + records_.What() + " does not unpack to " +
+        std::to_string(count) + " values",
       "The file is damaged: read another time, or run FDS again");
   }
   const std::array<float, 256> meaning = this->Values(place);

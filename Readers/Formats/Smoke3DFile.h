@@ -31,11 +31,13 @@ public:
   /// @param path      the .s3d file; its .s3dd twin is taken where there is one
   /// @param nodes     number of nodes of the mesh along x, y, z
   /// @param firstCell width of the mesh's first cell in x [m]
-  Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes, double firstCell);
+  /// @param what      what it is called in messages
+  Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes, double firstCell,
+    const std::string& what = "3-D smoke");
 
   /// Another quantity, with the values that the bytes 0 and 254 stand for.
-  Smoke3DFile(
-    const std::string& path, const std::array<int, 3>& nodes, const std::array<double, 2>& range);
+  Smoke3DFile(const std::string& path, const std::array<int, 3>& nodes,
+    const std::array<double, 2>& range, const std::string& what = "3-D smoke");
 
   const std::string& Path() const override { return records_.Path(); }
   const std::array<int, 3>& Dimensions() const override { return nodes_; }

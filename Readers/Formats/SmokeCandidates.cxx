@@ -396,14 +396,16 @@ std::vector<SmokeCandidate> FindFieldCandidates(
 //------------------------------------------------------------------------------------------------
 std::unique_ptr<FrameFile> OpenCandidate(const SmvFile& index, const SmokeCandidate& candidate)
 {
+  const SmvMesh& mesh = index.Meshes[candidate.Mesh];
+  const std::string what = candidate.Label.LongLabel + " of mesh '" + mesh.Name + "'";
   if (candidate.Kind == Format::Smoke3D)
   {
-    const SmvMesh& mesh = index.Meshes[candidate.Mesh];
     const std::string path = index.Resolve(candidate.Files.front().second);
+    const std::string bytes = "8-bit file of " + what;
     return candidate.Quantity == SmokeQuantity::Other
-             ? std::make_unique<Smoke3DFile>(path, NodesOf(mesh), candidate.ByteRange)
+             ? std::make_unique<Smoke3DFile>(path, NodesOf(mesh), candidate.ByteRange, bytes)
              : std::make_unique<Smoke3DFile>(
-                 path, NodesOf(mesh), mesh.Nodes[0][1] - mesh.Nodes[0][0]);
+                 path, NodesOf(mesh), mesh.Nodes[0][1] - mesh.Nodes[0][0], bytes);
   }
   if (candidate.Kind == Format::Plot3D)
   {
@@ -412,15 +414,15 @@ std::unique_ptr<FrameFile> OpenCandidate(const SmvFile& index, const SmokeCandid
     {
       files.emplace_back(time, index.Resolve(name));
     }
-    return std::make_unique<Plot3DSeries>(
-      files, candidate.Component, NodesOf(index.Meshes[candidate.Mesh]));
+    return std::make_unique<Plot3DSeries>(files, candidate.Component, NodesOf(mesh), what);
   }
   auto slice = std::make_unique<SliceFile>(
-    index.Resolve(candidate.Files.front().second), candidate.CellCentred);
+    index.Resolve(candidate.Files.front().second), candidate.CellCentred, "slice of " + what);
   if (slice->Range() != candidate.Range)
   {
     throw Error(slice->Path(),
-      "its index range is not the one that the index " + index.Path + " gives",
+      "the index range of the slice of " + what + " is not the one that the index " + index.Path +
+        " gives",
       "The two are of different runs: copy both from the same one");
   }
   return slice;

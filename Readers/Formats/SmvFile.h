@@ -21,6 +21,8 @@ struct SmvSurface
   int Type = 0;
   /// Red, green, blue (sRGB) and alpha (1: opaque), each 0 to 1.
   std::array<double, 4> Color{1.0, 0.8, 0.4, 1.0};
+  /// Image file that Smokeview puts on it; empty for none.
+  std::string Texture;
 };
 
 /// A change of an obstruction or vent while the run goes.
@@ -117,6 +119,13 @@ struct SmvPlot3D
   std::array<SmvQuantity, 5> Quantities;
 };
 
+/// One file of complex geometry: solids (.ge) or the faces that they cut out of cells (.gcf).
+struct SmvGeometry
+{
+  bool CutFaces = false;
+  std::string File;
+};
+
 /// A measuring point (DEVC line).
 struct SmvDevice
 {
@@ -156,6 +165,7 @@ public:
   std::vector<SmvSlice> Slices;
   std::vector<SmvSmoke3D> Smoke3D;
   std::vector<SmvPlot3D> Plot3D;
+  std::vector<SmvGeometry> Geometries;
   std::vector<SmvDevice> Devices;
   /// Text tables (type such as `devc` or `hrr`, and file name).
   std::vector<std::pair<std::string, std::string>> Tables;

@@ -66,6 +66,8 @@ void SmvParser::ReadLines()
   {
     throw Error(index_.Path, "reading the FDS index failed", "Check the disk");
   }
+  // A crash of the file system leaves zeros, which would end messages early.
+  std::replace(text_.begin(), text_.end(), '\0', ' ');
   if (Trim(text_).empty())
   {
     throw Error(
@@ -163,6 +165,11 @@ void SmvParser::Parse(std::string_view line)
   {
     this->ParsePlot3D(rest);
   }
+  else if (word == "GEOM" || word == "BGEOM" || word == "CGEOM")
+  {
+    // Lines about the single bodies follow the file, indented.
+    index_.Geometries.push_back({word == "CGEOM", this->NextText()});
+  }
   else if (word == "DEVICE")
   {
     this->ParseDevice();
@@ -217,13 +224,18 @@ void SmvParser::Check()
   }
   if (index_.Surfaces.empty())
   {
-    index_.Surfaces.push_back({"INERT"});
+    index_.Surfaces.emplace_back().Name = "INERT";
   }
 }
 
 //------------------------------------------------------------------------------------------------
 void SmvParser::Fail(const std::string& what) const
 {
+  // The last line of a file being written may be cut short.
+  if (line_ == lines_.size() && !text_.ends_with('\n'))
+  {
+    throw EndOfIndex();
+  }
   throw Error(index_.Path + ", line " + std::to_string(line_), what,
     "The index is damaged or from an FDS version that is not known here");
 }
@@ -250,11 +262,6 @@ std::vector<double> SmvParser::NextNumbers(std::size_t atLeast, const char* what
   std::vector<double> numbers = SplitNumbers(this->Next());
   if (numbers.size() < atLeast)
   {
-    // The last line of a file being written may be cut short.
-    if (line_ == lines_.size())
-    {
-      throw EndOfIndex();
-    }
     this->Fail("expected " + std::to_string(atLeast) + " numbers (" + what + ")");
   }
   return numbers;

@@ -33,7 +33,8 @@ void SmvParser::ParseSurface()
   {
     surface.Color[i] = std::clamp(numbers[3 + i], 0.0, 1.0);
   }
-  this->Next(); // texture file
+  const std::string texture = this->NextText();
+  surface.Texture = texture == "null" ? std::string() : texture;
   index_.Surfaces.push_back(std::move(surface));
 }
 
@@ -70,8 +71,12 @@ void SmvParser::ParseNodes(int axis)
   {
     throw EndOfIndex();
   }
-  std::vector<double>& nodes = index_.Meshes.back().Nodes[axis];
-  nodes.clear();
+  if (!index_.Meshes.back().Nodes[axis].empty())
+  {
+    this->Fail("mesh '" + index_.Meshes.back().Name + "' has its node coordinates twice");
+  }
+  // Filled aside: the lines may end in the middle.
+  std::vector<double> nodes;
   nodes.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -83,6 +88,7 @@ void SmvParser::ParseNodes(int axis)
     }
     nodes.push_back(numbers[1]);
   }
+  index_.Meshes.back().Nodes[axis] = std::move(nodes);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -113,8 +119,9 @@ void SmvParser::ParseObstructions()
   SmvMesh& mesh = index_.Meshes.back();
   const int meshNumber = static_cast<int>(index_.Meshes.size()) - 1;
   const int count = this->NextCount("obstructions", 2);
-  mesh.Obstructions.assign(static_cast<std::size_t>(count), {});
-  for (SmvObstruction& obstruction : mesh.Obstructions)
+  // Filled aside, too.
+  std::vector<SmvObstruction> obstructions(static_cast<std::size_t>(count));
+  for (SmvObstruction& obstruction : obstructions)
   {
     const auto numbers = SplitNumbers(Before(lines_[line_], '!'));
     obstruction.Name = std::string(Trim(After(this->Next(), '!')));
@@ -127,7 +134,7 @@ void SmvParser::ParseObstructions()
       obstruction.Surfaces[side] = ToInteger(numbers[7 + side]);
     }
   }
-  for (SmvObstruction& obstruction : mesh.Obstructions)
+  for (SmvObstruction& obstruction : obstructions)
   {
     const std::string_view line = Before(this->Next(), '!');
     const auto indices = SplitIntegers(line, 8, 5);
@@ -151,6 +158,7 @@ void SmvParser::ParseObstructions()
         [](double part) { return std::clamp(part, 0.0, 1.0); });
     }
   }
+  mesh.Obstructions = std::move(obstructions);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -214,10 +222,6 @@ void SmvParser::ParseSlice(std::string_view line, bool cellCentred)
   const auto range = SplitIntegers(Before(After(line, '&'), '!'), 6, 6);
   if (mesh.empty() || range.size() < 6)
   {
-    if (line_ == lines_.size())
-    {
-      throw EndOfIndex();
-    }
     this->Fail("a slice needs its mesh number and six indices");
   }
   SmvSlice slice;

@@ -67,10 +67,17 @@ std::size_t NumberLength(std::string_view token, std::size_t decimals)
 
 std::optional<double> ToNumber(std::string_view text)
 {
+  double value = 0.0;
+  // Most numbers are plain, and an index has millions of them.
+  const char* const end = text.data() + text.size();
+  const auto quick = std::from_chars(text.data(), end, value);
+  if (quick.ec == std::errc() && quick.ptr == end)
+  {
+    return value;
+  }
   std::string plain(text.starts_with('+') ? text.substr(1) : text);
   std::replace_if(
     plain.begin(), plain.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
-  double value = 0.0;
   const auto [rest, problem] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
   if (problem == std::errc::result_out_of_range && rest == plain.data() + plain.size())
   {

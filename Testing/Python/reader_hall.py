@@ -138,7 +138,7 @@ with tempfile.TemporaryDirectory() as temporary:
     broken = reader(copy)
     with Messages(temporary) as messages:
         broken.UpdatePipeline(600.0)
-    true("hall_1_1.sf: the file cannot be opened" in messages.text, "the missing slice is named")
+    true("hall_1_1.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'west' cannot be opened" in messages.text, "the missing slice is named")
     equal(messages.count("ERROR"), 1, "errors of a missing slice")
     true("hall_devc.csv" in messages.text, "the missing device table is named")
     equal(messages.count("Warning"), 1, "warnings of a missing device table")

@@ -201,10 +201,11 @@ TEST_F(OneMeshRun, TellsWhatToAskFdsFor)
 TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
 {
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
-  EXPECT_THAT(this->Problem(), HasSubstr("gone.sf: the file cannot be opened"));
+  EXPECT_THAT(this->Problem(),
+    HasSubstr("gone.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'm' cannot be opened"));
   folder_.Write(
     "gone.sf", test::SliceBytes("A", {0, 1, 0, 1, 0, 1}, {{0.0F, std::vector<float>(8)}}));
-  EXPECT_THAT(this->Problem(), HasSubstr("index range is not the one"));
+  EXPECT_THAT(this->Problem(), HasSubstr("is not the one"));
 }
 
 TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
@@ -301,7 +302,8 @@ TEST_F(OneMeshRun, TheNextBestSourceStandsInForAMissingFile)
   EXPECT_THAT(
     test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(testing::FloatEq(0.87F), 0.0F));
   ASSERT_EQ(source.Warnings().size(), 1U);
-  EXPECT_THAT(source.Warnings()[0], HasSubstr("gone.sf: the file cannot be opened"));
+  EXPECT_THAT(source.Warnings()[0],
+    HasSubstr("gone.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'm' cannot be opened"));
 }
 
 TEST_F(OneMeshRun, InterpolatesInTime)

@@ -137,7 +137,8 @@ TEST(FlameSource, TakesSlicesBeforeBytesAndTellsWhatIsMissing)
   const auto [nothing, warnings] = read(0.0F);
   EXPECT_THAT(nothing, Each(0.0F));
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_THAT(warnings[0], HasSubstr("h.s3d: the file cannot be opened"));
+  EXPECT_THAT(
+    warnings[0], HasSubstr("h.s3d: the 8-bit file of HRRPUV of mesh 'm' cannot be opened"));
 
   // 8-bit: 12 nodes of byte 127, from 0 to 1200 kW/m3 and rounded down.
   test::Records bytes;

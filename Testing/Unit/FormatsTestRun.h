@@ -20,8 +20,7 @@ class Folder
 {
 public:
   explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("smokevis-" + name + "-" + std::to_string(::getpid())))
+      : path_(Base() / ("smokevis-" + name + "-" + std::to_string(::getpid())))
   {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -41,6 +40,16 @@ public:
   }
 
 private:
+  // In memory where there is such a place: some tests write thousands of files.
+  static std::filesystem::path Base()
+  {
+    std::error_code none;
+    const std::filesystem::path memory = "/dev/shm";
+    return std::filesystem::is_directory(memory, none) && ::access("/dev/shm", W_OK) == 0
+             ? memory
+             : std::filesystem::temp_directory_path();
+  }
+
   std::filesystem::path path_;
 };
 

@@ -1,0 +1,251 @@
+#include "PlateGather.h"
+
+#include "Sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Share of the surface of the box around the scene.
+constexpr double LargestShare = 0.02;
+/// Rays of a batch: first, and most.
+constexpr int FirstRays = 32;
+constexpr int MostRays = 2048;
+/// Rays, of all batches together, for the glow before a plate.
+constexpr int GlowRays = 128;
+/// Smoke behind this optical depth adds less than single precision shows.
+constexpr double DeepestDepth = 20.0;
+
+} // namespace
+
+PlateGather::PlateGather(
+  const Scene& scene, const LightFieldOptions& options, LightField& field, int band)
+    : Scene_(scene), Options_(options), Direct_(scene), Field_(field), Band_(band)
+{
+  const Vec3 size = scene.Upper() - scene.Lower();
+  this->LargestPlate_ = LargestShare * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+std::pair<std::size_t, std::size_t> PlateGather::Run()
+{
+  const std::vector<Sign>& signs = this->Scene_.Lights().Signs();
+  std::size_t count = 0;
+  for (std::size_t sign = 0; sign < signs.size(); ++sign)
+  {
+    if (this->Wanted(signs[sign]))
+    {
+      this->Gather(sign);
+      ++count;
+    }
+  }
+  return {count, this->Rays_};
+}
+
+bool PlateGather::Wanted(const Sign& sign) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  double area = 0.0;
+  bool plane = true;
+  bool reflects = false;
+  for (const std::size_t cell : sign.Cells)
+  {
+    area += lights.CellArea(cell);
+    plane = plane && glm::dot(lights.CellNormal(cell), sign.Normal) > 1.0 - 1e-6;
+    reflects = reflects || lights.Cells()[cell].Reflectance[this->Band_] > 0.0;
+  }
+  return plane && reflects && area <= this->LargestPlate_;
+}
+
+void PlateGather::Gather(std::size_t index)
+{
+  const Sign& sign = this->Scene_.Lights().Signs()[index];
+  const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
+  const Vec3 edgeV = sign.Corners[3] - sign.Corners[0];
+  const Vec3 tangent = glm::normalize(edgeU);
+  const Vec3 other = glm::cross(sign.Normal, tangent);
+  const Vec3 base = sign.Corners[0] + 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  double direct = 0.0;
+  double area = 0.0;
+  for (const std::size_t cell : sign.Cells)
+  {
+    const double own = this->Scene_.Lights().CellArea(cell);
+    direct += own * this->Field_.DirectIlluminance[this->Field_.PatchIndex(
+                      this->Band_, this->Scene_.SurfacePatches() + cell, 0)];
+    area += own;
+  }
+  direct /= area;
+
+  std::array<double, Batches> sums{};
+  Lanes illuminance;
+  int done = 0;
+  for (int rays = FirstRays;; rays *= 2)
+  {
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      // Even over the plate, and over directions by their cosine.
+      const EvenPoints points(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + batch);
+      for (int ray = done; ray < rays; ++ray)
+      {
+        const auto random = points.Point(ray);
+        const double sine = std::sqrt(random[2]);
+        const double angle = glm::two_pi<double>() * random[3];
+        const Vec3 direction = sine * std::cos(angle) * tangent + sine * std::sin(angle) * other +
+                               std::sqrt(1.0 - random[2]) * sign.Normal;
+        sums[batch] +=
+          glm::pi<double>() *
+          this->Radiance(base + random[0] * edgeU + random[1] * edgeV, direction, batch);
+      }
+      illuminance[batch] = static_cast<float>(sums[batch] / rays);
+    }
+    this->Rays_ += static_cast<std::size_t>(Batches) * (rays - done);
+    done = rays;
+    if (StandardError(illuminance) <= this->Options_.Tolerance * (Mean(illuminance) + direct) ||
+        2 * rays > MostRays)
+    {
+      break;
+    }
+  }
+  const auto glow = static_cast<float>(this->Glow(sign));
+  for (float& value : illuminance.Value)
+  {
+    value += glow;
+  }
+  for (const std::size_t cell : sign.Cells)
+  {
+    this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
+      this->Band_, this->Scene_.SurfacePatches() + cell, 0)] = illuminance;
+  }
+}
+
+double PlateGather::Glow(const Sign& sign) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
+  const std::int64_t first = smoke.Locate(sign.Centre + 1e-3 * sign.Radius * sign.Normal);
+  if (first < 0 || this->Scene_.Albedo() == 0.0)
+  {
+    return 0.0;
+  }
+  const Vec3 size = smoke.CellSize(first);
+  const double reach = 2.0 * (sign.Radius + std::max({size.x, size.y, size.z}));
+  std::vector<std::size_t> near;
+  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
+  {
+    if (lights.Groups()[lights.Lights()[light]].Distance(sign.Centre) < reach)
+    {
+      near.push_back(light);
+    }
+  }
+  if (near.empty())
+  {
+    return 0.0;
+  }
+  std::map<std::int64_t, double> means;
+  const auto meanOf = [&](std::int64_t cell)
+  {
+    const auto [known, fresh] = means.try_emplace(cell, 0.0);
+    for (std::size_t i = 0; fresh && i < near.size(); ++i)
+    {
+      known->second += this->Direct_.CellFluence(near[i], cell)[this->Band_];
+    }
+    return known->second;
+  };
+  const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
+  const Vec3 edgeV = sign.Corners[3] - sign.Corners[0];
+  const Vec3 tangent = glm::normalize(edgeU);
+  const Vec3 other = glm::cross(sign.Normal, tangent);
+  const Vec3 base = sign.Corners[0] + 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  const EvenPoints points(Mix(this->Options_.Seed + sign.Id));
+  std::vector<Segment> segments;
+  double sum = 0.0;
+  for (int ray = 0; ray < GlowRays; ++ray)
+  {
+    const auto random = points.Point(ray);
+    const double sine = std::sqrt(random[2]);
+    const double angle = glm::two_pi<double>() * random[3];
+    const Vec3 origin = base + random[0] * edgeU + random[1] * edgeV;
+    const Vec3 direction = sine * std::cos(angle) * tangent + sine * std::sin(angle) * other +
+                           std::sqrt(1.0 - random[2]) * sign.Normal;
+    const Hit hit = this->Scene_.Shapes().Intersect(origin, direction, 0.0, reach);
+    smoke.Walk(origin, direction, 0.0, std::min(reach, hit.Distance), segments);
+    double depth = 0.0;
+    for (const Segment& segment : segments)
+    {
+      const double extinction =
+        this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell);
+      const double length = segment.End - segment.Begin;
+      const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * length / sign.Radius)));
+      for (int part = 0; part < parts && extinction > 0.0; ++part)
+      {
+        const double place = length * (part + 0.5) / parts;
+        const Vec3 point = origin + (segment.Begin + place) * direction;
+        double fluence = -meanOf(segment.Cell);
+        for (const std::size_t light : near)
+        {
+          fluence += this->Direct_.Fluence(light, point)[this->Band_];
+        }
+        sum += fluence * extinction * length / parts * std::exp(-depth - extinction * place);
+      }
+      depth += extinction * length;
+    }
+  }
+  return 0.25 * this->Scene_.Albedo() * sum / GlowRays;
+}
+
+double PlateGather::Radiance(const Vec3& origin, const Vec3& direction, int batch) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Hit hit = this->Scene_.Shapes().Intersect(
+    origin, direction, 0.0, std::numeric_limits<double>::infinity());
+  thread_local std::vector<Segment> segments;
+  smoke.Walk(origin, direction, 0.0, hit.Distance, segments);
+  const double albedo = this->Scene_.Albedo();
+  double depth = 0.0;
+  double sum = 0.0;
+  for (const Segment& segment : segments)
+  {
+    const double own = this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell) *
+                       (segment.End - segment.Begin);
+    const std::size_t index = this->Field_.CellIndex(this->Band_, segment.Cell);
+    const double source =
+      albedo / (4.0 * glm::pi<double>()) *
+        (this->Field_.DirectFluence[index] + this->Field_.MultipleFluence[index][batch]) +
+      (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
+    sum += std::exp(-depth) * -std::expm1(-own) * source;
+    depth += own;
+    if (depth > DeepestDepth)
+    {
+      return sum;
+    }
+  }
+  return sum + std::exp(-depth) *
+                 (hit.Found() ? this->Leaving(hit, direction, batch) : this->Scene_.Sky());
+}
+
+double PlateGather::Leaving(const Hit& hit, const Vec3& direction, int batch) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const std::size_t side = this->Field_.PatchIndex(this->Band_, patch, hit.Side);
+  double radiance =
+    this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>() *
+    (this->Field_.DirectIlluminance[side] + this->Field_.MultipleIlluminance[side][batch]);
+  const EmitterSet& lights = this->Scene_.Lights();
+  const std::size_t cell = patch - this->Scene_.SurfacePatches();
+  if (hit.Emitter && hit.Side == 0 && lights.LeftToLines(cell))
+  {
+    const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
+    radiance += lights.Cells()[cell].Luminance[this->Band_] *
+                lights.CellLaw(cell).Relative(-direction, cosine);
+  }
+  return radiance;
+}
+
+} // namespace smokevis

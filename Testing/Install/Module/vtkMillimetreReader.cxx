@@ -1,0 +1,10 @@
+#include "vtkMillimetreReader.h"
+
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkMillimetreReader);
+
+vtkMillimetreReader::vtkMillimetreReader()
+{
+  this->SetUnitScale(0.001);
+}

@@ -1,0 +1,124 @@
+"""Panels of all proxies: panels.py PLUGIN DATA_FOLDER
+
+Every property is documented with its default, which is that of the C++ class, and stands in one group; filters
+are in the menu Fire with an icon; files open by their extension; the colour map of floor maps works.
+"""
+
+import glob
+import os
+import re
+import sys
+import xml.etree.ElementTree as xml
+
+import numpy
+
+import scenes
+
+simple = scenes.load_plugin()
+folder = os.path.join(sys.argv[2], os.pardir, "Plugin")
+
+
+def words(element):
+    return " ".join("".join(element.itertext()).split())
+
+
+def numbers(text):
+    return [float(part) for part in re.findall(r"-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?", text)]
+
+
+def printed_values(group, name):
+    """What an object that nobody has touched prints of itself."""
+    proxy = simple.servermanager.ProxyManager().NewProxy(group, name)
+    proxy.UpdateVTKObjects()
+    untouched = proxy.GetClientSideObject().NewInstance()
+    return dict(re.findall(r"^\s*(\w+): (.*)$", str(untouched), re.MULTILINE))
+
+
+def is_default(element, printed):
+    default = element.get("default_values")
+    if element.tag == "StringVectorProperty":
+        return printed == (default or "(none)")
+    return numpy.allclose(numbers(printed), numbers(default))
+
+
+# --- documentation, defaults, groups ------------------------------------------------------------------
+checked = 0
+for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
+    for group, proxy in [(group.get("name"), proxy) for group in xml.parse(path).getroot()
+                         for proxy in group]:
+        name = proxy.get("name")
+        assert proxy.find("Documentation") is not None, name
+        printed = printed_values(group, name)
+        grouped = [entry.get("name") for group in proxy.findall("PropertyGroup") for entry in group]
+        assert len(grouped) == len(set(grouped)), (name, grouped)
+        known = set()
+        for element in proxy:
+            key = element.get("name")
+            if not element.tag.endswith("Property"):
+                continue
+            known.add(key)
+            assert element.find("Documentation") is not None, (name, key)
+            documentation = words(element.find("Documentation"))
+            # ParaView's Python names properties by their labels.
+            label = element.get("label")
+            assert label is None or re.sub("[^A-Za-z0-9]", "", label) == key, (name, key, label)
+            if element.tag in ("InputProperty", "Property") or element.get("information_only"):
+                continue
+            if key == "FileName":
+                assert printed.get(key, "(none)") == "(none)", (name, printed)
+                continue
+            assert re.search("[Dd]efault", documentation), (name, key, documentation)
+            assert key in printed, (name, key, "is not printed")
+            assert is_default(element, printed[key]), (
+                name, key, printed[key], element.get("default_values"))
+            stated = re.search(r"[Dd]efault:? ([-(0-9].*)", documentation)
+            if stated:
+                values = numbers(element.get("default_values"))
+                assert numpy.allclose(numbers(stated.group(1))[: len(values)], values), (
+                    name, key, stated.group(1), values)
+            assert key in grouped, (name, key, "is in no group")
+            checked += 1
+        assert set(grouped) <= known, (name, set(grouped) - known)
+
+        # --- menus and files --------------------------------------------------------------------------
+        menu = proxy.find("Hints/ShowInMenu")
+        reader = proxy.find("Hints/ReaderFactory")
+        assert (menu is not None) or (reader is not None) or proxy.tag == "WriterProxy", name
+        if menu is not None:
+            assert menu.get("category") == "Fire", name
+            icon = os.path.join(folder, menu.get("icon").replace(":/SmokeVisibility/", ""))
+            assert xml.parse(icon).getroot().tag.endswith("svg"), icon
+            with open(os.path.join(folder, "SmokeVisibility.qrc")) as file:
+                assert "Icons/" + os.path.basename(icon) in file.read(), icon
+assert checked > 80, checked
+
+for name, proxy in (("CAD/kiosk.step", "CADReader"), ("CAD/kiosk.ifc", "CADReader"),
+                    ("Hall/fds/hall.smv", "FDSSmokeReader")):
+    opened = simple.OpenDataFile(os.path.join(sys.argv[2], name))
+    assert type(opened).__name__ == proxy, (name, opened)
+
+# --- how a map is shown -------------------------------------------------------------------------------
+view = simple.CreateView("RenderView")
+floor = simple.FloorMapOfVisibility(
+    LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), Resolution=[4, 2], EyeHeight=0.5)
+shown = simple.Show(floor, view)
+assert shown.Representation == "Surface", shown.Representation
+assert simple.ImportPresets(filename=os.path.join(folder, "ColorMaps", "FMV.json"))
+simple.ColorBy(shown, ("POINTS", "Visibility"))
+colors = simple.GetColorTransferFunction("Visibility")
+assert colors.ApplyPreset("FMV", False)
+table = colors.GetClientSideObject()
+
+
+def color(value):
+    rgb = [0.0, 0.0, 0.0]
+    table.GetColor(value, rgb)
+    return rgb
+
+
+# Grey where a sign is seen, brighter where it is seen better; dark red below the threshold of 0.2.
+for value in (0.21, 0.5, 0.9):
+    assert max(color(value)) - min(color(value)) < 1e-6, color(value)
+assert color(0.9)[0] > color(0.5)[0] > color(0.21)[0]
+assert color(0.1) == color(0.19) and color(0.1)[0] > 2 * color(0.1)[1]
+print("panels: passed")
