@@ -9,7 +9,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import numpy
 from scenes import (Messages, box, cell_array, check_close, fetch, field, image, load_plugin, producer,
                     tunnel_sign)
-from vtkmodules.vtkFiltersCore import vtkMassProperties
+from vtkmodules.vtkFiltersCore import vtkCellCenters, vtkMassProperties, vtkTriangleFilter
 
 simple = load_plugin()
 samples = os.path.join(sys.argv[2], "CAD")
@@ -165,8 +165,6 @@ surfaces = result.GetPartitionedDataSet(1)
 assert surfaces.GetNumberOfPartitions() == 2
 emitter = result.GetPartition(2, 0)
 assert set(texts(emitter, "SignName")) == {"East exit"}
-from vtkmodules.vtkFiltersCore import vtkCellCenters
-
 centers = vtkCellCenters()
 centers.SetInputData(surfaces.GetPartition(1))
 centers.Update()
@@ -185,6 +183,28 @@ for i in range(points.GetNumberOfPoints()):
         check_close("illuminance at %g %g" % (x, z), found[i], expected, relative=0.015)
         checked += 1
 assert checked >= 50, checked
+
+# --- CAD and FDS geometry together ------------------------------------------------------------------------
+run = simple.FDSSmokeReader(FileName=os.path.join(sys.argv[2], "Room", "fds", "room.smv"))
+pillar = simple.CADReader(FileName=sample("kiosk.step"), MaterialTable=sample("materials.json"))
+both = simple.SmokeLightField(
+    Smoke=run, Surfaces=[simple.OutputPort(run, 1), pillar],
+    Emitters=[simple.OutputPort(pillar, 1)], Tolerance=0.1, PatchSize=0.5)
+both.UpdatePipeline(10.0)
+surfaces = both.GetClientSideObject().GetOutputDataObject(0).GetPartitionedDataSet(1)
+assert surfaces.GetNumberOfPartitions() == 2
+walls, block = (surfaces.GetPartition(i) for i in range(2))
+assert walls.GetCellData().GetAbstractArray("SurfaceName") is not None
+assert set(texts(block, "Object")) == {"Kiosk"}
+# Cut into patches, the block is as large as before and in its place, and light reaches both.
+mass = vtkMassProperties()
+triangles = vtkTriangleFilter()
+triangles.SetInputData(block)
+mass.SetInputConnection(triangles.GetOutputPort())
+check_close("area", mass.GetSurfaceArea(), 22.0, relative=1e-6)
+assert numpy.abs(numpy.subtract(block.GetBounds(), [1, 2, 2, 4, 0, 3])).max() < 1e-9
+for part in (walls, block):
+    assert cell_array(part, "Illuminance").max() > 0.0
 
 # --- millimetres for metres -------------------------------------------------------------------------------
 huge = simple.CADReader(FileName=sample("kiosk.stl"), UnitScale=1000.0)
