@@ -32,6 +32,16 @@ public:
 
   /// Reads frame @p frame, x fastest, into @p values, which is resized to Dimensions().
   virtual void ReadFrame(std::size_t frame, std::vector<float>& values) = 0;
+
+  /// Number of values along x, y, z as they are stored: Dimensions() and, at the low ends, what is
+  /// to be left out.
+  virtual const std::array<int, 3>& StoredDimensions() const { return this->Dimensions(); }
+
+  /// Reads a frame as it is stored, for those who leave the surplus out themselves and save a copy.
+  virtual void ReadStored(std::size_t frame, std::vector<float>& values)
+  {
+    this->ReadFrame(frame, values);
+  }
 };
 
 } // namespace smokevis

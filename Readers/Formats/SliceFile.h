@@ -35,6 +35,8 @@ public:
   const std::string& Damage() const override { return damage_; }
 
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
+  const std::array<int, 3>& StoredDimensions() const override { return stored_; }
+  void ReadStored(std::size_t frame, std::vector<float>& values) override;
 
 private:
   void IndexFrames();

@@ -72,7 +72,7 @@ VolumeField::VolumeField(const SmvFile& index, SmokeCandidate candidate)
 void VolumeField::ReadFrame(
   std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values)
 {
-  file_->ReadFrame(frame, values);
+  file_->ReadStored(frame, values);
   if (of_.Kind == SmokeCandidate::Format::Smoke3D)
   {
     TakeSolidsOut(
@@ -89,9 +89,17 @@ double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
   {
     const auto weight = static_cast<float>(mix.Weight[part]);
     this->ReadFrame(mix.Frame[part], solid, scratch);
-    this->ForEachCell(scratch, solid,
-      [&](std::size_t cell, int, int, int, float value)
-      { cells[cell] = part == 0 ? weight * value : cells[cell] + weight * value; });
+    this->ForEachRow(scratch,
+      [&](std::size_t cell, int, int, std::span<const float> row)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+          if (solid.empty() || solid[cell + i] == 0)
+          {
+            cells[cell + i] = part == 0 ? weight * row[i] : cells[cell + i] + weight * row[i];
+          }
+        }
+      });
   }
   return mix.Time;
 }

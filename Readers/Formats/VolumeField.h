@@ -5,6 +5,7 @@
 #include "SmokeCandidates.h"
 #include "SmvFile.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -27,18 +28,17 @@ public:
   const FrameFile& File() const { return *file_; }
   const FrameTimes& Times() const { return times_; }
 
-  /// Reads a frame as the file has it, on its nodes or cells. Of 8-bit smoke, where FDS averaged
+  /// Reads a frame as the file stores it, on its nodes or cells. Of 8-bit smoke, where FDS averaged
   /// solid cells in as clear ones, they are taken out again. @p solid marks the mesh's solid cells,
   /// empty for none.
   void ReadFrame(
     std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values);
 
-  /// Calls visit(cell, i, j, k, value) for the cells of the range that are not solid, x fastest; a
-  /// cell gets the mean of its eight nodes. FDS gives a node the mean over its gas cells, and 0
-  /// without any; all eight nodes of a gas cell have one: the cell itself.
-  template <class Visit>
-  void ForEachCell(
-    const std::vector<float>& values, const std::vector<unsigned char>& solid, Visit&& visit) const;
+  /// Calls visit(cell, j, k, row) for each row of cells of the range, where cell is the number of
+  /// the first and row, a std::span<const float>, the values of all; a cell gets the mean of its
+  /// eight nodes. FDS gives a node the mean over its gas cells, and 0 without any; all
+  /// eight nodes of a gas cell have one: the cell itself. @p values are those of ReadFrame().
+  template <class Visit> void ForEachRow(const std::vector<float>& values, Visit&& visit) const;
 
   /// Sets the cells that the field covers to its values at @p time; leaves solids and others alone.
   /// @p scratch is working space. Returns the time that the values are of.
@@ -54,40 +54,43 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <class Visit>
-void VolumeField::ForEachCell(
-  const std::vector<float>& values, const std::vector<unsigned char>& solid, Visit&& visit) const
+void VolumeField::ForEachRow(const std::vector<float>& values, Visit&& visit) const
 {
   const IndexRange& r = of_.Range;
   const auto nx = static_cast<std::size_t>(mesh_.Cells(0));
   const auto ny = static_cast<std::size_t>(mesh_.Cells(1));
-  const auto row = static_cast<std::size_t>(file_->Dimensions()[0]);
-  const std::size_t layer = row * static_cast<std::size_t>(file_->Dimensions()[1]);
-  const std::array<std::size_t, 8> corners{
-    0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
+  const std::array<int, 3>& stored = file_->StoredDimensions();
+  const std::array<int, 3>& used = file_->Dimensions();
+  const auto stride = static_cast<std::size_t>(stored[0]);
+  const std::size_t layer = stride * static_cast<std::size_t>(stored[1]);
+  const float* const first = values.data() + (stored[2] - used[2]) * layer +
+                             (stored[1] - used[1]) * stride + (stored[0] - used[0]);
+  const auto length = static_cast<std::size_t>(r[1] - r[0]);
+  std::vector<float> row(length + 1);
   for (int k = r[4]; k < r[5]; ++k)
   {
     for (int j = r[2]; j < r[3]; ++j)
     {
-      const float* first = values.data() + (k - r[4]) * layer + (j - r[2]) * row;
-      const std::size_t firstCell = (static_cast<std::size_t>(k) * ny + j) * nx;
-      for (int i = r[0]; i < r[1]; ++i)
+      const float* const a = first + (k - r[4]) * layer + (j - r[2]) * stride;
+      const std::size_t cell = (static_cast<std::size_t>(k) * ny + j) * nx + r[0];
+      if (of_.CellCentred)
       {
-        const std::size_t cell = firstCell + i;
-        if (!solid.empty() && solid[cell] != 0)
+        visit(cell, j, k, std::span<const float>(a, length));
+      }
+      else
+      {
+        const float* const b = a + stride;
+        const float* const c = a + layer;
+        const float* const d = c + stride;
+        for (std::size_t i = 0; i <= length; ++i)
         {
-          continue;
+          row[i] = 0.125F * (a[i] + b[i] + c[i] + d[i]);
         }
-        const float* value = first + (i - r[0]);
-        float mean = *value;
-        if (!of_.CellCentred)
+        for (std::size_t i = 0; i < length; ++i)
         {
-          mean = 0.0F;
-          for (const std::size_t corner : corners)
-          {
-            mean += 0.125F * value[corner];
-          }
+          row[i] += row[i + 1];
         }
-        visit(cell, i, j, k, mean);
+        visit(cell, j, k, std::span<const float>(row.data(), length));
       }
     }
   }
