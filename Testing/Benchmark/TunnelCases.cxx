@@ -127,7 +127,7 @@ void RunTunnel(const Settings& settings)
 {
   ResultTable table(
     settings.Out + "/tunnel.csv", {"method", "setting", "threads", "field_s", "view_s", "total_s",
-                                    "pixel_error", "veil_error", "veil_mean_error"});
+                                    "processor_s", "pixel_error", "veil_error", "veil_mean_error"});
   const SceneDescription tunnel = scenes::Tunnel(1.0, 0.9);
   // The reference is the solver's own limit: half the cell size, a small tolerance, another seed.
   // The reference integrator says in the first row how far that is off in the mean.
