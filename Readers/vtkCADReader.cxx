@@ -1,6 +1,7 @@
 #include "vtkCADReader.h"
 
 #include "CadFile.h"
+#include "CadImages.h"
 #include "CadPolyData.h"
 #include "Errors.h"
 #include "MaterialTable.h"
@@ -102,6 +103,7 @@ void vtkCADReader::LoadModel()
   ReadingProgress progress(this);
   auto model =
     std::make_unique<smokevis::CadModel>(smokevis::ReadCadFile(this->FileName, options, progress));
+  smokevis::ApplyImages(*model);
   for (const std::string& warning : model->Warnings)
   {
     vtkWarningMacro(<< this->FileName << ": " << warning << ".");

@@ -32,7 +32,8 @@
  * @par Reflectance
  * A base or diffuse colour is the reflectance. Its numbers are taken for sRGB and made linear (IEC
  * 61966-2-1), but for glTF, whose colours are linear by its specification. Colours of corners count
- * where a material has none, as their mean over the triangle. Images are not read.
+ * where a material has none, as their mean over the triangle. An image counts as the mean of its
+ * pixels, times the colour in glTF and OBJ.
  *
  * @par Material table
  * A CSV file whose first line names the columns, or a .json file with an array of objects of the
@@ -134,8 +135,8 @@ public:
 
   ///@{
   /**
-   * Largest angle between neighbouring triangles of a curved face of STEP or IGES [degrees]. Range
-   * 0.5 to 90, default 15.
+   * Largest angle between neighbouring triangles of a curved face of STEP or IGES [degrees], but
+   * for edges shorter than a tenth of LinearTolerance. Range 0.5 to 90, default 15.
    */
   vtkSetMacro(AngularTolerance, double);
   vtkGetMacro(AngularTolerance, double);

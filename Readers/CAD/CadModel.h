@@ -14,6 +14,15 @@ namespace smokevis
 using CadPoint = std::array<double, 3>;
 using CadColor = std::array<double, 3>;
 
+/// An image that a material has for a colour.
+struct CadImage
+{
+  /// Path of the file; blank where the image came with the model.
+  std::string File;
+  /// The file's content where the image came with the model.
+  std::vector<unsigned char> Bytes;
+};
+
 /// How light meets a surface, as far as the file says.
 struct CadMaterial
 {
@@ -21,6 +30,8 @@ struct CadMaterial
   std::string Name;
   /// Diffuse reflectance, linear red, green and blue, 0 to 1; nothing where the file has no colour.
   std::optional<CadColor> Reflectance;
+  /// By whose mean colour the reflectance is to be multiplied.
+  std::optional<CadImage> Image;
   /// 0: lets all light through, 1: none.
   double Opacity = 1.0;
 };

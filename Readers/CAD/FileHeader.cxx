@@ -1,81 +1,18 @@
 // Looks for units and axes in the text of COLLADA, DXF and IFC files.
 #include "FileHeader.h"
 
-#include <cctype>
-#include <charconv>
-#include <cmath>
+#include "StepRecord.h"
+
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
-#include <sstream>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace smokevis
 {
 namespace
 {
-
-std::string_view Trim(std::string_view text)
-{
-  const char* const blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos
-           ? std::string_view()
-           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// The number in a text, or 0.
-double Number(std::string_view text)
-{
-  text = Trim(text);
-  double value = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return code == std::errc() && std::isfinite(value) ? value : 0.0;
-}
-
-/// A record of an exchange file, `#7=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);`
-struct Record
-{
-  std::string_view Name;
-  std::vector<std::string_view> Fields;
-};
-
-/// Takes a record apart; fields keep nested parentheses and quotes.
-Record SplitRecord(std::string_view text)
-{
-  Record record;
-  const std::size_t open = text.find('(');
-  const std::size_t close = text.rfind(')');
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open)
-  {
-    return record;
-  }
-  record.Name = Trim(text.substr(0, open));
-  const std::string_view inside = text.substr(open + 1, close - open - 1);
-  int depth = 0;
-  bool quoted = false;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= inside.size(); ++i)
-  {
-    const char c = i < inside.size() ? inside[i] : ',';
-    if (c == '\'')
-    {
-      quoted = !quoted;
-    }
-    else if (!quoted)
-    {
-      depth += c == '(';
-      depth -= c == ')';
-      if (i == inside.size() || (c == ',' && depth == 0))
-      {
-        record.Fields.push_back(Trim(inside.substr(begin, i - begin)));
-        begin = i + 1;
-      }
-    }
-  }
-  return record;
-}
 
 double SiPrefix(std::string_view prefix)
 {
@@ -91,25 +28,20 @@ using Records = std::map<std::string, std::string, std::less<>>;
 Records ReadUnitRecords(const std::string& fileName)
 {
   Records records;
-  std::ifstream file(fileName);
-  for (std::string text; std::getline(file, text, ';');)
-  {
-    const std::string_view record = Trim(text);
-    const std::size_t equals = record.find('=');
-    if (record.empty() || record[0] != '#' || equals == std::string_view::npos)
+  std::ifstream file(fileName, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  ForEachRecord(text,
+    [&](std::string_view number, std::string_view body, std::string_view)
     {
-      continue;
-    }
-    const std::string_view body = Trim(record.substr(equals + 1));
-    for (const std::string_view name :
-      {"IFCUNITASSIGNMENT", "IFCSIUNIT", "IFCMEASUREWITHUNIT", "IFCCONVERSIONBASEDUNIT"})
-    {
-      if (body.substr(0, name.size()) == name)
+      for (const std::string_view name :
+        {"IFCUNITASSIGNMENT", "IFCSIUNIT", "IFCMEASUREWITHUNIT", "IFCCONVERSIONBASEDUNIT"})
       {
-        records.emplace(Trim(record.substr(0, equals)), body);
+        if (body.substr(0, name.size()) == name)
+        {
+          records.emplace(number, body);
+        }
       }
-    }
-  }
+    });
   return records;
 }
 
@@ -121,7 +53,7 @@ double LengthUnit(const Records& records, std::string_view number)
   {
     return 0.0;
   }
-  const Record unit = SplitRecord(found->second);
+  const StepRecord unit = SplitRecord(found->second);
   if (unit.Fields.size() != 4 || unit.Fields[1] != ".LENGTHUNIT.")
   {
     return 0.0;
@@ -135,19 +67,19 @@ double LengthUnit(const Records& records, std::string_view number)
   {
     return 0.0;
   }
-  const Record measure = SplitRecord(factor->second);
+  const StepRecord measure = SplitRecord(factor->second);
   if (measure.Fields.size() != 2)
   {
     return 0.0;
   }
   const auto base = records.find(measure.Fields[1]);
-  const Record value = SplitRecord(measure.Fields[0]);
+  const StepRecord value = SplitRecord(measure.Fields[0]);
   if (base == records.end() || value.Fields.empty())
   {
     return 0.0;
   }
-  const Record si = SplitRecord(base->second);
-  return si.Fields.size() == 4 ? Number(value.Fields[0]) * SiPrefix(si.Fields[2]) : 0.0;
+  const StepRecord si = SplitRecord(base->second);
+  return si.Fields.size() == 4 ? RecordNumber(value.Fields[0]) * SiPrefix(si.Fields[2]) : 0.0;
 }
 
 } // namespace
@@ -171,14 +103,14 @@ FileHeader ReadColladaHeader(const std::string& fileName)
     const std::size_t quote = text.find_first_of("\"'", meter);
     if (quote != std::string::npos)
     {
-      header.UnitScale = Number(std::string_view(text).substr(quote + 1));
+      header.UnitScale = RecordNumber(std::string_view(text).substr(quote + 1));
     }
   }
   const std::size_t up = text.find("<up_axis>");
   if (up != std::string::npos)
   {
     const std::string_view axis =
-      Trim(std::string_view(text).substr(up + 9, text.find('<', up + 9) - up - 9));
+      TrimRecord(std::string_view(text).substr(up + 9, text.find('<', up + 9) - up - 9));
     header.Up = axis == "X_UP"   ? UpAxis::X
                 : axis == "Y_UP" ? UpAxis::Y
                 : axis == "Z_UP" ? UpAxis::Z
@@ -191,15 +123,15 @@ FileHeader ReadColladaHeader(const std::string& fileName)
 FileHeader ReadDxfHeader(const std::string& fileName)
 {
   // The codes of INSUNITS, DXF Reference, "HEADER Section Group Codes".
-  static const std::map<int, double> lengths = {{1, 0.0254}, {2, 0.3048}, {3, 1609.344}, {4, 1e-3},
-    {5, 1e-2}, {6, 1.0}, {7, 1e3}, {8, 2.54e-8}, {9, 2.54e-5}, {10, 0.9144}, {11, 1e-10},
+  static const std::map<double, double> lengths = {{1, 0.0254}, {2, 0.3048}, {3, 1609.344},
+    {4, 1e-3}, {5, 1e-2}, {6, 1.0}, {7, 1e3}, {8, 2.54e-8}, {9, 2.54e-5}, {10, 0.9144}, {11, 1e-10},
     {12, 1e-9}, {13, 1e-6}, {14, 0.1}, {15, 10.0}, {16, 100.0}};
   FileHeader header;
   std::ifstream file(fileName);
   std::string line;
   while (std::getline(file, line))
   {
-    const std::string_view text = Trim(line);
+    const std::string_view text = TrimRecord(line);
     if (text == "ENDSEC")
     {
       break;
@@ -207,7 +139,7 @@ FileHeader ReadDxfHeader(const std::string& fileName)
     std::string code, value;
     if (text == "$INSUNITS" && std::getline(file, code) && std::getline(file, value))
     {
-      const auto found = lengths.find(static_cast<int>(Number(value)));
+      const auto found = lengths.find(RecordNumber(value));
       header.UnitScale = found == lengths.end() ? 0.0 : found->second;
       break;
     }
@@ -222,7 +154,7 @@ FileHeader ReadIfcHeader(const std::string& fileName)
   const Records records = ReadUnitRecords(fileName);
   for (const auto& [number, body] : records)
   {
-    const Record assignment = SplitRecord(body);
+    const StepRecord assignment = SplitRecord(body);
     if (assignment.Name != "IFCUNITASSIGNMENT" || assignment.Fields.size() != 1)
     {
       continue;

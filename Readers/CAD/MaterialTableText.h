@@ -19,4 +19,10 @@ namespace smokevis
 /// JSON: an array of objects with the same keys.
 std::vector<MaterialRow> ReadMaterialRows(const std::string& fileName);
 
+/// The rows in the text of a CSV file.
+std::vector<MaterialRow> ReadMaterialCsv(const std::string& fileName, const std::string& text);
+
+/// The rows in the text of a JSON file.
+std::vector<MaterialRow> ReadMaterialJson(const std::string& fileName, const std::string& text);
+
 } // namespace smokevis

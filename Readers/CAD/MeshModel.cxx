@@ -5,6 +5,7 @@
 #include "CrashGuard.h"
 #include "Errors.h"
 #include "FileHeader.h"
+#include "Ifc4Rewriter.h"
 #include "PlyHeader.h"
 #include "SrgbColor.h"
 
@@ -20,6 +21,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -70,9 +73,10 @@ private:
 class SceneConverter
 {
 public:
-  SceneConverter(const aiScene& scene, const CadFormat& format, const CadOptions& options,
-    bool materialsMissing, CadModel& model)
-      : Scene_(scene), Format_(format), MaterialsMissing_(materialsMissing), Model_(model),
+  SceneConverter(const aiScene& scene, const std::string& fileName, const CadFormat& format,
+    const CadOptions& options, bool materialsMissing, CadModel& model)
+      : Scene_(scene), Folder_(std::filesystem::path(fileName).parent_path()), Format_(format),
+        MaterialsMissing_(materialsMissing), Model_(model),
         Linear_(options.Colors == ColorSpace::Linear ||
                 (options.Colors == ColorSpace::Automatic && format.LinearColors))
   {
@@ -84,13 +88,6 @@ public:
     for (unsigned int i = 0; i < this->Scene_.mNumMaterials; ++i)
     {
       this->AddMaterial(*this->Scene_.mMaterials[i]);
-    }
-    if (this->Textured_ > 0)
-    {
-      this->Model_.Warnings.push_back(
-        std::to_string(this->Textured_) +
-        " materials get their colour from images, which are not read; state their reflectance in "
-        "the material table");
     }
     std::vector<std::string> groups;
     this->AddNode(*this->Scene_.mRootNode, toFile, groups);
@@ -134,13 +131,11 @@ private:
     aiColor4D color;
     const bool colored = source.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS ||
                          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
-    const bool textured = source.GetTextureCount(aiTextureType_BASE_COLOR) > 0 ||
-                          source.GetTextureCount(aiTextureType_DIFFUSE) > 0;
-    this->Textured_ += textured;
-    if (colored && !textured && !this->IsMadeUp(material.Name, color))
+    if (colored && !this->IsMadeUp(material.Name, color))
     {
       material.Reflectance = this->Reflectance(color.r, color.g, color.b);
     }
+    this->AddImage(source, material);
     float opacity = 1.0F;
     if (source.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && std::isfinite(opacity))
     {
@@ -151,6 +146,35 @@ private:
       material.Name.clear();
     }
     this->Model_.Materials.push_back(std::move(material));
+  }
+
+  void AddImage(const aiMaterial& source, CadMaterial& material) const
+  {
+    aiString name;
+    if (source.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS &&
+        source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS)
+    {
+      return;
+    }
+    CadImage image;
+    if (const aiTexture* const texture = this->Scene_.GetEmbeddedTexture(name.C_Str()))
+    {
+      // With a height it is a raster, for which no exporter is known.
+      const auto* const bytes = reinterpret_cast<const unsigned char*>(texture->pcData);
+      image.Bytes.assign(bytes, bytes + (texture->mHeight == 0 ? texture->mWidth : 0));
+    }
+    else
+    {
+      std::string file = name.C_Str();
+      std::replace(file.begin(), file.end(), '\\', '/');
+      image.File = (this->Folder_ / file).string();
+    }
+    // In glTF and OBJ colour and image are multiplied, elsewhere the image takes its place.
+    if (this->Format_.Name != "glTF" && this->Format_.Name != "OBJ")
+    {
+      material.Reflectance.reset();
+    }
+    material.Image = std::move(image);
   }
 
   void AddNode(const aiNode& node, const Matrix& parent, std::vector<std::string>& groups)
@@ -272,11 +296,11 @@ private:
   }
 
   const aiScene& Scene_;
+  std::filesystem::path Folder_;
   const CadFormat& Format_;
   bool MaterialsMissing_;
   CadModel& Model_;
   bool Linear_;
-  int Textured_ = 0;
 };
 
 /// What the file states, and the matrix from the library's coordinates to those of the file.
@@ -338,6 +362,12 @@ Matrix ReadHeader(
                 : Matrix(s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1);
 }
 
+std::string Bytes(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -359,10 +389,25 @@ void ReadMeshModel(const std::string& fileName, const CadFormat& format, const C
   importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  std::size_t unread = 0;
+  const std::string rewritten = format.Name == "IFC"
+                                  ? RewriteIfc4(Bytes(fileName), options.AngularTolerance, unread)
+                                  : std::string();
+  if (unread > 0)
+  {
+    model.Warnings.push_back(
+      std::to_string(unread) +
+      " shapes of IFC4, such as IfcAdvancedBrep, are not read and are missing; export tessellated "
+      "geometry or IFC2x3");
+  }
   const aiScene* scene = nullptr;
   const std::string failure = CrashGuard().Run(
-    [&]() {
-      scene = importer->ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+    [&]()
+    {
+      constexpr unsigned int steps = aiProcess_ValidateDataStructure | aiProcess_Triangulate;
+      scene = rewritten.empty()
+                ? importer->ReadFile(fileName, steps)
+                : importer->ReadFileFromMemory(rewritten.data(), rewritten.size(), steps, "ifc");
     });
   std::string why = failure.empty() ? importer->GetErrorString() : failure;
   if (!failure.empty())
@@ -389,7 +434,7 @@ void ReadMeshModel(const std::string& fileName, const CadFormat& format, const C
       "' that the model refers to is missing beside it, so colours may be missing");
   }
   const Matrix toFile = ReadHeader(fileName, format, *scene, model);
-  SceneConverter(*scene, format, options, !missing.empty(), model).Convert(toFile);
+  SceneConverter(*scene, fileName, format, options, !missing.empty(), model).Convert(toFile);
 }
 
 } // namespace smokevis

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -19,6 +21,65 @@ namespace
 
 // More negative than this [1/m] is no rounding of a transport scheme but not smoke at all.
 constexpr float MostNegative = -1e-3F;
+
+// Sets values to 0 where a mask, empty for none, is not 0.
+void ClearMasked(std::span<float> values, std::size_t first, const std::vector<unsigned char>& mask)
+{
+  if (mask.empty())
+  {
+    return;
+  }
+  const unsigned char* const marks = mask.data() + first;
+  std::size_t i = 0;
+  // Eight at a time: most are not marked.
+  for (; i + 8 <= values.size(); i += 8)
+  {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, marks + i, sizeof(eight));
+    for (std::size_t n = i; eight != 0 && n < i + 8; ++n)
+    {
+      values[n] = marks[n] != 0 ? 0.0F : values[n];
+    }
+  }
+  for (; i < values.size(); ++i)
+  {
+    values[i] = marks[i] != 0 ? 0.0F : values[i];
+  }
+}
+
+// Whether a value can be an extinction coefficient.
+bool IsGood(float value)
+{
+  return value >= MostNegative && value <= std::numeric_limits<float>::max();
+}
+
+// Writes values to target, or adds them to it, rounding errors below 0 as 0. Returns whether all
+// are good. Without a branch inside, so that the compiler takes several values at a time.
+bool CopyGood(std::span<const float> values, float* target)
+{
+  int bad = 0;
+  const std::size_t count = values.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bad |= static_cast<int>(!(values[i] >= MostNegative)) |
+           static_cast<int>(!(values[i] <= std::numeric_limits<float>::max()));
+    target[i] = values[i] > 0.0F ? values[i] : 0.0F;
+  }
+  return bad == 0;
+}
+
+bool AddGood(std::span<const float> values, float weight, float* target)
+{
+  int bad = 0;
+  const std::size_t count = values.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bad |= static_cast<int>(!(values[i] >= MostNegative)) |
+           static_cast<int>(!(values[i] <= std::numeric_limits<float>::max()));
+    target[i] += weight * (values[i] > 0.0F ? values[i] : 0.0F);
+  }
+  return bad == 0;
+}
 
 // Whether two terms are of one species.
 bool Alike(const SmokeCandidate& a, const SmokeCandidate& b)
@@ -256,10 +317,16 @@ double ExtinctionSource::NearestTime(double time) const
 double ExtinctionSource::Read(int mesh, double time, TimeInterpolation interpolation,
   const std::vector<unsigned char>& solid, std::span<float> values)
 {
-  std::fill(values.begin(), values.end(), 0.0F);
   Scratch& scratch = scratch_.local();
   double readTime = time;
   std::vector<Term>& terms = terms_[mesh];
+  // A single whole frame is written over whatever is there.
+  const bool sums = terms.size() != 1 || !terms[0].Field.Of().WholeMesh ||
+                    interpolation != TimeInterpolation::Nearest;
+  if (sums)
+  {
+    std::fill(values.begin(), values.end(), 0.0F);
+  }
   for (std::size_t i = 0; i < terms.size(); ++i)
   {
     const SmokeCandidate& of = terms[i].Field.Of();
@@ -275,36 +342,32 @@ double ExtinctionSource::Read(int mesh, double time, TimeInterpolation interpola
     {
       scratch.Covered.assign(values.size(), 0);
     }
-    this->Add(terms[i], mix, solid, !(begins && ends), scratch, values);
+    this->Add(terms[i], mix, solid, {sums, !(begins && ends)}, scratch, values);
   }
   return readTime;
 }
 
 //------------------------------------------------------------------------------------------------
 void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<unsigned char>& solid,
-  bool usesCovered, Scratch& scratch, std::span<float> sum)
+  const Mode& mode, Scratch& scratch, std::span<float> sum)
 {
   VolumeField& field = term.Field;
   const SmokeCandidate& of = field.Of();
   const auto factor = static_cast<float>(of.Factor);
-  // Values from 0 on and infinite ones are told apart by one comparison.
-  constexpr float greatest = std::numeric_limits<float>::max();
+  static const std::vector<unsigned char> none;
   const std::size_t parts = mix.Weight[1] > 0.0 ? 2 : 1;
   for (std::size_t part = 0; part < parts; ++part)
   {
     const std::size_t frame = mix.Frame[part];
     const double frameTime = field.File().FrameTimes()[frame];
-    field.ReadFrame(frame, solid, scratch.Values);
-    if (of.Quantity == SmokeQuantity::Visibility)
+    const auto invert = [&](std::vector<float>& values)
     {
-      std::transform(scratch.Values.begin(), scratch.Values.end(), scratch.Values.begin(),
-        [factor](float s) { return factor / s; });
-    }
-    else if (factor != 1.0F)
-    {
-      std::transform(scratch.Values.begin(), scratch.Values.end(), scratch.Values.begin(),
-        [factor](float v) { return factor * v; });
-    }
+      if (of.Quantity == SmokeQuantity::Visibility)
+      {
+        std::transform(values.begin(), values.end(), values.begin(),
+          [factor](float visibility) { return factor / visibility; });
+      }
+    };
     if (term.Density)
     {
       scratch.Density.assign(sum.size(), 0.0F);
@@ -313,35 +376,52 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
       term.Density->ReadCells(frameTime, TimeInterpolation::Nearest, solid, space, scratch.Density);
     }
     const auto weight = static_cast<float>(mix.Weight[part]);
-    const auto fail = [&](float extinction, int i, int j, int k)
-    {
-      std::ostringstream what;
-      what << of.Label.LongLabel << " gives the extinction coefficient " << extinction
-           << " 1/m in cell (" << i << ", " << j << ", " << k << ") of mesh '"
-           << index_.Meshes[of.Mesh].Name << "' at " << frameTime << " s";
-      throw Error(field.File().Path(), what.str(),
-        "The run went numerically unstable or the file is damaged: read an earlier time");
-    };
+    const bool scaled = of.Quantity != SmokeQuantity::Visibility && factor != 1.0F;
     const bool last = part + 1 == parts;
-    field.ForEachCell(scratch.Values, solid,
-      [&](std::size_t cell, int i, int j, int k, float value)
+    const bool changes = scaled || term.Density || !solid.empty() || mode.UsesCovered;
+    field.ForEachRow(frame, solid, scratch.Values, invert,
+      [&](std::size_t cell, int j, int k, std::span<const float> row)
       {
-        if (usesCovered && scratch.Covered[cell] != 0)
+        if (changes)
         {
-          return;
+          scratch.Row.resize(row.size());
+          const std::span<float> own(scratch.Row);
+          const float times = scaled ? factor : 1.0F;
+          std::transform(
+            row.begin(), row.end(), own.begin(), [times](float value) { return times * value; });
+          for (std::size_t i = 0; i < own.size() && term.Density; ++i)
+          {
+            own[i] *= scratch.Density[cell + i];
+          }
+          ClearMasked(own, cell, solid);
+          ClearMasked(own, cell, mode.UsesCovered ? scratch.Covered : none);
+          row = own;
         }
-        const float extinction = term.Density ? value * scratch.Density[cell] : value;
-        if (!(extinction >= MostNegative && extinction <= greatest))
+        float* const target = sum.data() + cell;
+        if (!(mode.Sums ? AddGood(row, weight, target) : CopyGood(row, target)))
         {
-          fail(extinction, i, j, k);
+          this->FailAt(field, frameTime, row, j, k);
         }
-        sum[cell] += weight * std::max(extinction, 0.0F);
-        if (usesCovered && last)
+        if (mode.UsesCovered && last)
         {
-          scratch.Covered[cell] = 1;
+          std::fill_n(scratch.Covered.data() + cell, row.size(), static_cast<unsigned char>(1));
         }
       });
   }
+}
+
+//------------------------------------------------------------------------------------------------
+void ExtinctionSource::FailAt(
+  const VolumeField& field, double time, std::span<const float> row, int j, int k) const
+{
+  const auto bad = std::find_if_not(row.begin(), row.end(), IsGood);
+  const SmokeCandidate& of = field.Of();
+  std::ostringstream what;
+  what << of.Label.LongLabel << " gives the extinction coefficient " << *bad << " 1/m in cell ("
+       << bad - row.begin() + of.Range[0] << ", " << j << ", " << k << ") of mesh '"
+       << index_.Meshes[of.Mesh].Name << "' at " << time << " s";
+  throw Error(field.File().Path(), what.str(),
+    "The run went numerically unstable or the file is damaged: read an earlier time");
 }
 
 } // namespace smokevis

@@ -62,6 +62,7 @@ private:
   {
     std::vector<float> Values;
     std::vector<float> Density;
+    std::vector<float> Row;
     std::vector<unsigned char> Covered;
   };
 
@@ -70,8 +71,18 @@ private:
   void CollectTimes();
   void Describe();
   [[noreturn]] void FailWithoutSmoke() const;
+  /// How a term goes into the values.
+  struct Mode
+  {
+    /// Added to what is there, rather than written over it.
+    bool Sums = true;
+    /// Only where no earlier term of the species was.
+    bool UsesCovered = false;
+  };
   void Add(Term& term, const FrameMix& mix, const std::vector<unsigned char>& solid,
-    bool usesCovered, Scratch& scratch, std::span<float> sum);
+    const Mode& mode, Scratch& scratch, std::span<float> sum);
+  [[noreturn]] void FailAt(
+    const VolumeField& field, double time, std::span<const float> row, int j, int k) const;
 
   const SmvFile& index_;
   SmokeOptions options_;

@@ -71,8 +71,12 @@ void SmvParser::ParseNodes(int axis)
   {
     throw EndOfIndex();
   }
-  std::vector<double>& nodes = index_.Meshes.back().Nodes[axis];
-  nodes.clear();
+  if (!index_.Meshes.back().Nodes[axis].empty())
+  {
+    this->Fail("mesh '" + index_.Meshes.back().Name + "' has its node coordinates twice");
+  }
+  // Filled aside: the lines may end in the middle.
+  std::vector<double> nodes;
   nodes.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -84,6 +88,7 @@ void SmvParser::ParseNodes(int axis)
     }
     nodes.push_back(numbers[1]);
   }
+  index_.Meshes.back().Nodes[axis] = std::move(nodes);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -114,8 +119,9 @@ void SmvParser::ParseObstructions()
   SmvMesh& mesh = index_.Meshes.back();
   const int meshNumber = static_cast<int>(index_.Meshes.size()) - 1;
   const int count = this->NextCount("obstructions", 2);
-  mesh.Obstructions.assign(static_cast<std::size_t>(count), {});
-  for (SmvObstruction& obstruction : mesh.Obstructions)
+  // Filled aside, too.
+  std::vector<SmvObstruction> obstructions(static_cast<std::size_t>(count));
+  for (SmvObstruction& obstruction : obstructions)
   {
     const auto numbers = SplitNumbers(Before(lines_[line_], '!'));
     obstruction.Name = std::string(Trim(After(this->Next(), '!')));
@@ -128,7 +134,7 @@ void SmvParser::ParseObstructions()
       obstruction.Surfaces[side] = ToInteger(numbers[7 + side]);
     }
   }
-  for (SmvObstruction& obstruction : mesh.Obstructions)
+  for (SmvObstruction& obstruction : obstructions)
   {
     const std::string_view line = Before(this->Next(), '!');
     const auto indices = SplitIntegers(line, 8, 5);
@@ -152,6 +158,7 @@ void SmvParser::ParseObstructions()
         [](double part) { return std::clamp(part, 0.0, 1.0); });
     }
   }
+  mesh.Obstructions = std::move(obstructions);
 }
 
 //------------------------------------------------------------------------------------------------

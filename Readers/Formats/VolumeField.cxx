@@ -72,7 +72,7 @@ VolumeField::VolumeField(const SmvFile& index, SmokeCandidate candidate)
 void VolumeField::ReadFrame(
   std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values)
 {
-  file_->ReadFrame(frame, values);
+  file_->ReadStored(frame, values);
   if (of_.Kind == SmokeCandidate::Format::Smoke3D)
   {
     TakeSolidsOut(
@@ -88,10 +88,18 @@ double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
   for (std::size_t part = 0; part < 2 && (part == 0 || mix.Weight[part] > 0.0); ++part)
   {
     const auto weight = static_cast<float>(mix.Weight[part]);
-    this->ReadFrame(mix.Frame[part], solid, scratch);
-    this->ForEachCell(scratch, solid,
-      [&](std::size_t cell, int, int, int, float value)
-      { cells[cell] = part == 0 ? weight * value : cells[cell] + weight * value; });
+    this->ForEachRow(
+      mix.Frame[part], solid, scratch, [](std::vector<float>&) {},
+      [&](std::size_t cell, int, int, std::span<const float> row)
+      {
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+          if (solid.empty() || solid[cell + i] == 0)
+          {
+            cells[cell + i] = part == 0 ? weight * row[i] : cells[cell + i] + weight * row[i];
+          }
+        }
+      });
   }
   return mix.Time;
 }

@@ -42,6 +42,9 @@ struct Solution
   /// Search structures, and the light field [s].
   double SetUpSeconds = 0.0;
   double FieldSeconds = 0.0;
+  /// The same of all processors.
+  double SetUpProcessors = 0.0;
+  double FieldProcessors = 0.0;
 };
 Solution Solve(
   const SceneDescription& description, double tolerance, std::uint64_t seed, int threads);

@@ -2,6 +2,7 @@
 
 #include "ExtinctionSource.h"
 #include "SolidCells.h"
+#include "SrgbColor.h"
 #include "WallBuilder.h"
 
 #include <algorithm>
@@ -164,6 +165,7 @@ Solution Solve(
     std::make_shared<const LightField>(SolveLightField(*solution.TheScene, options, progress));
   solution.TheView = std::make_unique<const View>(solution.TheScene, solution.Field);
   solution.FieldSeconds = watch.Seconds();
+  solution.FieldProcessors = watch.Processors();
   return solution;
 }
 
@@ -174,8 +176,10 @@ Solution Solve(
   const StopWatch watch;
   auto scene = std::make_shared<const Scene>(description);
   const double seconds = watch.Seconds();
+  const double processors = watch.Processors();
   Solution solution = Solve(std::move(scene), tolerance, seed, threads);
   solution.SetUpSeconds = seconds;
+  solution.SetUpProcessors = processors;
   return solution;
 }
 

@@ -79,8 +79,8 @@ double ViewSeconds(const Solution& solution, int views, int threads)
 //--------------------------------------------------------------------------------------------------
 void RunGrowth(const Settings& settings)
 {
-  ResultTable table(
-    settings.Out + "/growth.csv", {"curve", "value", "setup_s", "field_s", "view_s", "peak_MiB"});
+  ResultTable table(settings.Out + "/growth.csv",
+    {"curve", "value", "setup_s", "field_s", "field_processor_s", "view_s", "peak_MiB"});
   const auto curve = [&](const std::string& name, const std::vector<double>& values,
                        const std::function<void(Room&, double)>& set)
   {
@@ -90,7 +90,8 @@ void RunGrowth(const Settings& settings)
       set(room, value);
       const Solution solution = Solve(Describe(room), GrowthTolerance, 1, settings.Threads);
       table.Row({name, Number(value), Number(solution.SetUpSeconds), Number(solution.FieldSeconds),
-        Number(ViewSeconds(solution, 20, settings.Threads)), Number(PeakMemory())});
+        Number(solution.FieldProcessors), Number(ViewSeconds(solution, 20, settings.Threads)),
+        Number(PeakMemory())});
       if (solution.SetUpSeconds + solution.FieldSeconds > settings.Limit)
       {
         break;
@@ -112,7 +113,7 @@ void RunGrowth(const Settings& settings)
   {
     const double seconds = views * ViewSeconds(solution, views, settings.Threads);
     table.Row({"views", Number(views), Number(solution.SetUpSeconds), Number(solution.FieldSeconds),
-      Number(seconds), Number(PeakMemory())});
+      Number(solution.FieldProcessors), Number(seconds), Number(PeakMemory())});
     if (seconds > settings.Limit)
     {
       break;
@@ -180,7 +181,7 @@ void RunSteps(const Settings& settings)
     {
       sum += work(rays[i], ends[i]);
     }
-    const double nanoseconds = 1e9 * watch.Seconds();
+    const double nanoseconds = 1e9 * watch.Processors();
     table.Row({name, Number(Rays), Number(cells / Rays), Number(nanoseconds / Rays),
       Number(nanoseconds / cells)});
   };

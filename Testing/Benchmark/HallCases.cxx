@@ -66,8 +66,9 @@ MapError Compare(const FloorMap& reference, const FloorMap& map)
 void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine)
 {
   ResultTable table(settings.Out + "/" + name + ".csv",
-    {"tolerance", "threads", "setup_s", "field_s", "map_s", "total_s", "contrast_error",
-      "largest_contrast_error", "visibility_error", "error_over_bar", "peak_MiB"});
+    {"tolerance", "threads", "setup_s", "field_s", "map_s", "total_s", "processor_s",
+      "contrast_error", "largest_contrast_error", "visibility_error", "error_over_bar",
+      "peak_MiB"});
   const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
   const StopWatch setUp;
   const auto scene =
@@ -86,9 +87,10 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
     const StopWatch watch;
     const FloorMap map = ComputeFloorMap(*solution.TheView, places, progress);
     const double seconds = watch.Seconds();
+    const double processors = solution.FieldProcessors + watch.Processors();
     std::vector<std::string> row = {Number(tolerance), Number(settings.Threads),
       Number(setUpSeconds), Number(solution.FieldSeconds), Number(seconds),
-      Number(solution.FieldSeconds + seconds)};
+      Number(solution.FieldSeconds + seconds), Number(processors)};
     if (reference.Visibility.empty())
     {
       row.insert(row.end(), 4, "");

@@ -27,10 +27,14 @@ private:
 /// Four significant digits; empty for NaN, which stands for "not measured".
 std::string Number(double value);
 
-/// Seconds since it was made.
+/// Processor time that this process has used so far, over all threads [s].
+double ProcessorSeconds();
+
+/// Time since it was made: on the clock, and of the processors, which says more on a busy machine.
 class StopWatch
 {
 public:
+  double Processors() const { return ProcessorSeconds() - this->Processors_; }
   double Seconds() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start_).count();
@@ -38,6 +42,7 @@ public:
 
 private:
   std::chrono::steady_clock::time_point Start_ = std::chrono::steady_clock::now();
+  double Processors_ = ProcessorSeconds();
 };
 
 /// Largest resident memory of this process so far [MiB].

@@ -127,7 +127,7 @@ void RunTunnel(const Settings& settings)
 {
   ResultTable table(
     settings.Out + "/tunnel.csv", {"method", "setting", "threads", "field_s", "view_s", "total_s",
-                                    "pixel_error", "veil_error", "veil_mean_error"});
+                                    "processor_s", "pixel_error", "veil_error", "veil_mean_error"});
   const SceneDescription tunnel = scenes::Tunnel(1.0, 0.9);
   // The reference is the solver's own limit: half the cell size, a small tolerance, another seed.
   // The reference integrator says in the first row how far that is off in the mean.
@@ -150,7 +150,7 @@ void RunTunnel(const Settings& settings)
   table.Row(
     {"reference against integrator, standard error " + Number(check.StandardError / check.Mean),
       Number(settings.ReferenceTolerance), Number(settings.Threads), Number(limit.FieldSeconds),
-      Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing),
+      Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing),
       Number(limitDark / count / check.Mean - 1.0)});
 
   for (const double tolerance : settings.Tolerances)
@@ -159,11 +159,13 @@ void RunTunnel(const Settings& settings)
     const StopWatch watch;
     const std::vector<double> values = Render(solution, picture, settings.Threads);
     const double seconds = watch.Seconds();
+    const double processors =
+      solution.SetUpProcessors + solution.FieldProcessors + watch.Processors();
     const PictureError error = Compare(picture, reference, values);
     const double field = solution.SetUpSeconds + solution.FieldSeconds;
-    table.Row(
-      {"solver", Number(tolerance), Number(settings.Threads), Number(field), Number(seconds),
-        Number(field + seconds), Number(error.Pixel), Number(error.Veil), Number(error.VeilMean)});
+    table.Row({"solver", Number(tolerance), Number(settings.Threads), Number(field),
+      Number(seconds), Number(field + seconds), Number(processors), Number(error.Pixel),
+      Number(error.Veil), Number(error.VeilMean)});
   }
   // The integrator's own tasks obey the process's limit, not the arena.
   const tbb::global_control limitThreads(tbb::global_control::max_allowed_parallelism,
@@ -176,9 +178,10 @@ void RunTunnel(const Settings& settings)
     const std::vector<double> values =
       PathTrace(*limit.TheScene, picture, static_cast<std::uint64_t>(perPixel), settings.Threads);
     const double seconds = watch.Seconds();
+    const double processors = watch.Processors();
     const PictureError error = Compare(picture, reference, values);
     table.Row({"reference integrator", Number(perPixel), Number(settings.Threads), Number(0.0),
-      Number(seconds), Number(seconds), Number(error.Pixel), Number(error.Veil),
+      Number(seconds), Number(seconds), Number(processors), Number(error.Pixel), Number(error.Veil),
       Number(error.VeilMean)});
   }
 }

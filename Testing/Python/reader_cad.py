@@ -1,5 +1,7 @@
 """CADReader: ports, arrays and field data, the material table, errors, and a scene lit with it and FDS walls."""
 
+import base64
+import json
 import os
 import sys
 import tempfile
@@ -9,7 +11,10 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import numpy
 from scenes import (Messages, box, cell_array, check_close, fetch, field, image, load_plugin, producer,
                     tunnel_sign)
-from vtkmodules.vtkFiltersCore import vtkMassProperties
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkCellCenters, vtkMassProperties, vtkTriangleFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 simple = load_plugin()
 samples = os.path.join(sys.argv[2], "CAD")
@@ -150,6 +155,59 @@ with tempfile.TemporaryDirectory() as folder:
         file.write("name,drop\n*,yes\n")
     refused("change the table", FileName=sample("kiosk.obj"), MaterialTable=table)
 
+# --- images as colours ------------------------------------------------------------------------------------
+pixels = vtkImageData()
+pixels.SetDimensions(2, 1, 1)
+pixels.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
+for column, value in enumerate((0, 255)):
+    for channel in range(3):
+        pixels.SetScalarComponentFromFloat(column, 0, 0, channel, value if channel < 2 else 128)
+with tempfile.TemporaryDirectory() as folder:
+    writer = vtkPNGWriter()
+    writer.SetInputData(pixels)
+    writer.SetFileName(os.path.join(folder, "wall.png"))
+    writer.Write()
+    with open(os.path.join(folder, "wall.obj"), "w") as file:
+        file.write("mtllib wall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl Brick\n"
+                   "f 1/1 2/2 3/3\n")
+    with open(os.path.join(folder, "wall.mtl"), "w") as file:
+        file.write("newmtl Brick\nKd 0.5 1 1\nmap_Kd wall.png\n")
+    wall = simple.CADReader(FileName=os.path.join(folder, "wall.obj"))
+    found = cell_array(port(wall, 0), "Reflectance")[0]
+    # Half black, half white; blue is the same everywhere.
+    expected = [0.5 * linear(0.5), 0.5, linear(128 / 255)]
+    assert numpy.abs(found - expected).max() < 1e-6, (found, expected)
+
+    # The same image within a glTF file, whose colours are linear.
+    with open(os.path.join(folder, "wall.png"), "rb") as file:
+        image_uri = "data:image/png;base64," + base64.b64encode(file.read()).decode()
+    corners = numpy.array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1], "<f4").tobytes()
+    with open(os.path.join(folder, "wall.gltf"), "w") as file:
+        json.dump({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [
+                {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+            "materials": [{"name": "Brick", "pbrMetallicRoughness": {
+                "baseColorFactor": [0.5, 1, 1, 1], "baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"uri": image_uri}],
+            "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,"
+                         + base64.b64encode(corners).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                 "min": [0, 0, 0], "max": [1, 1, 0]},
+                {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}]}, file)
+    found = cell_array(port(simple.CADReader(FileName=os.path.join(folder, "wall.gltf")), 0), "Reflectance")[0]
+    expected[0] = 0.25
+    assert numpy.abs(found - expected).max() < 1e-6, (found, expected)
+
+    # Without the image there is a warning and the default reflectance.
+    os.remove(os.path.join(folder, "wall.png"))
+    with Messages() as messages:
+        bare = port(simple.CADReader(FileName=os.path.join(folder, "wall.obj")), 0)
+    assert messages.count("Warning", "vtkCADReader") == 1 and "Brick" in messages.text, messages.text
+    assert (cell_array(bare, "Reflectance") == 0.5).all()
+
 # --- CAD and other surfaces in one scene ----------------------------------------------------------------
 # The sign of the model, 300 cd/m2, looks along -y into clear air; the illuminance that it gives to the floor
 # of a room around it is a closed form, far from it that of a small plane source.
@@ -165,8 +223,6 @@ surfaces = result.GetPartitionedDataSet(1)
 assert surfaces.GetNumberOfPartitions() == 2
 emitter = result.GetPartition(2, 0)
 assert set(texts(emitter, "SignName")) == {"East exit"}
-from vtkmodules.vtkFiltersCore import vtkCellCenters
-
 centers = vtkCellCenters()
 centers.SetInputData(surfaces.GetPartition(1))
 centers.Update()
@@ -185,6 +241,28 @@ for i in range(points.GetNumberOfPoints()):
         check_close("illuminance at %g %g" % (x, z), found[i], expected, relative=0.015)
         checked += 1
 assert checked >= 50, checked
+
+# --- CAD and FDS geometry together ------------------------------------------------------------------------
+run = simple.FDSSmokeReader(FileName=os.path.join(sys.argv[2], "Room", "fds", "room.smv"))
+pillar = simple.CADReader(FileName=sample("kiosk.step"), MaterialTable=sample("materials.json"))
+both = simple.SmokeLightField(
+    Smoke=run, Surfaces=[simple.OutputPort(run, 1), pillar],
+    Emitters=[simple.OutputPort(pillar, 1)], Tolerance=0.1, PatchSize=0.5)
+both.UpdatePipeline(10.0)
+surfaces = both.GetClientSideObject().GetOutputDataObject(0).GetPartitionedDataSet(1)
+assert surfaces.GetNumberOfPartitions() == 2
+walls, block = (surfaces.GetPartition(i) for i in range(2))
+assert walls.GetCellData().GetAbstractArray("SurfaceName") is not None
+assert set(texts(block, "Object")) == {"Kiosk"}
+# Cut into patches, the block is as large as before and in its place, and light reaches both.
+mass = vtkMassProperties()
+triangles = vtkTriangleFilter()
+triangles.SetInputData(block)
+mass.SetInputConnection(triangles.GetOutputPort())
+check_close("area", mass.GetSurfaceArea(), 22.0, relative=1e-6)
+assert numpy.abs(numpy.subtract(block.GetBounds(), [1, 2, 2, 4, 0, 3])).max() < 1e-9
+for part in (walls, block):
+    assert cell_array(part, "Illuminance").max() > 0.0
 
 # --- millimetres for metres -------------------------------------------------------------------------------
 huge = simple.CADReader(FileName=sample("kiosk.stl"), UnitScale=1000.0)

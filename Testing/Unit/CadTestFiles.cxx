@@ -164,6 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, CadSample,
     Sample{"kiosk.fbx", "FBX", 0.01, Stated, UpAxis::Y, Stated, true, true, false},
     Sample{"kiosk.3ds", "3DS", 1.0, Default, UpAxis::Z, Default, false, true, false},
     Sample{"kiosk.dxf", "DXF", 0.001, Stated, UpAxis::Z, Default, true, false, false},
+    Sample{"kiosk_ifc4.ifc", "IFC", 0.001, Stated, UpAxis::Z, Default, true, true, false},
     Sample{"kiosk.ifc", "IFC", 0.001, Stated, UpAxis::Z, Default, true, true, false}),
   [](const testing::TestParamInfo<Sample>& sample)
   { return Replaced(sample.param.File, ".", "_"); });
@@ -312,6 +313,34 @@ TEST(CadMesh, StatedUnitsAndAxes)
   EXPECT_NEAR(MeasureObject(Read(folder.Write("m.dxf", metres))).High[2], 3000.0, 1e-3);
 }
 
+TEST(CadMesh, ArcsAndHolesOfIfc4)
+{
+  const Folder folder("cad-ifc4");
+  const std::string ifc = Bytes(Samples + "kiosk_ifc4.ifc");
+  // Two arcs make a disc of 0.5 m, extruded by 3 m.
+  const std::string disc = Replaced(Replaced(ifc, "((0.,0.),(1000.,0.),(1000.,2000.),(0.,2000.))",
+                                      "((-500.,0.),(0.,500.),(500.,0.),(0.,-500.))"),
+    "(IFCLINEINDEX((1,2,3)),IFCLINEINDEX((3,4)),IFCLINEINDEX((4,1)))",
+    "(IFCARCINDEX((1,2,3)),IFCARCINDEX((3,4,1)))");
+  for (const double angle : {15.0, 3.0})
+  {
+    CadOptions options;
+    options.AngularTolerance = angle;
+    const double volume = std::numbers::pi * 0.25 * 3.0;
+    const double inscribed = volume * (1.0 - AreaDeficit(0.5 * angle * std::numbers::pi / 180));
+    EXPECT_NEAR(MeasureObject(Read(folder.Write("disc.ifc", disc), options), "Kiosk").Volume,
+      inscribed, 1e-5 * volume);
+  }
+  // A pane of 1 m2 with a hole of a quarter.
+  const std::string hole = Replaced(Replaced(ifc, "(3000.,2000.,2000.)))",
+                                      "(3000.,2000.,2000.),(3000.,2250.,1250.),(3000.,2250.,1750.),"
+                                      "(3000.,2750.,1750.),(3000.,2750.,"
+                                      "1250.)))"),
+    "IFCINDEXEDPOLYGONALFACE((1,2,3,4))",
+    "IFCINDEXEDPOLYGONALFACEWITHVOIDS((1,2,3,4),((5,6,7,8)))");
+  EXPECT_NEAR(MeasureObject(Read(folder.Write("hole.ifc", hole)), "Glazing-1").Area, 0.75, 1e-6);
+}
+
 TEST(CadMesh, MirroredPartsKeepTheirFronts)
 {
   const Folder folder("cad-mirror");
@@ -447,7 +476,8 @@ TEST(CadErrors, DamagedFilesEndInAModelOrAnError)
   // Of one damaged byte in three, the libraries follow an invalid address.
   const Folder folder("cad-damaged");
   std::mt19937 random(7);
-  for (const char* const name : {"kiosk.step", "kiosk.igs", "kiosk.ifc", "kiosk.ply", "kiosk.dae"})
+  for (const char* const name :
+    {"kiosk.step", "kiosk.igs", "kiosk.ifc", "kiosk_ifc4.ifc", "kiosk.ply", "kiosk.dae"})
   {
     const std::string whole = Bytes(Samples + name);
     for (int i = 0; i < 20; ++i)

@@ -157,6 +157,13 @@ TEST(SmvFile, NamesWhatIsWrong)
     Problem(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n -5\n")), HasSubstr("not a count"));
   EXPECT_THAT(Problem(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n 0\n 0 1.0\n 1 1.0\n\n")),
     HasSubstr("do not increase"));
+  test::Index twice = OneMesh();
+  EXPECT_THAT(Problem(folder.Write("a.smv", twice.Text("TRNX\n 0\n 0 0.\n").Bytes())),
+    HasSubstr("ends inside the entry TRNX"));
+  test::Index again = OneMesh();
+  EXPECT_THAT(Problem(folder.Write(
+                "a.smv", again.Text("TRNX\n 0\n 0 0.\n 1 1.\n 2 2.\n 3 3.\n 4 4.\n").Bytes())),
+    HasSubstr("node coordinates twice"));
 
   const auto with = [&](test::Index& index)
   { return Problem(folder.Write("a.smv", index.Bytes())); };

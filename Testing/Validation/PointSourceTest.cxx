@@ -112,16 +112,18 @@ TEST(PointSource, AirlightOfSingleScattering)
 }
 
 // Fluence of 1 lm in an infinite medium (Case, de Hoffmann and Placzek 1953), read on the axes at
-// 1, 2 and 3 mean free paths in cells of 0.1; walls of the volume are ten mean free paths away. The
-// source's own neighbourhood is steep: cells grow with the distance to it. 2 % is for the flat
-// sources of the coarser cells.
+// 1 to 10 mean free paths; walls of the volume are 14 mean free paths away, from beyond which less
+// than exp(-8) of the fluence at 10 comes back. The source's own neighbourhood is steep: cells grow
+// from 0.1 mean free paths to 0.6. A flat source in cells of h mean free paths errs by h^2 / 12 of
+// the local fall, 2 to 3 % in the coarsest.
 TEST(PointSource, InfiniteMediumLong)
 {
   report::Head("Fluence of a point source in an infinite medium");
   const report::ReferenceTable table("infinite_medium_point_source.csv");
   std::vector<double> nodes;
   for (const double at : {0.05, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 0.95, 1.05, 1.3, 1.6, 1.95, 2.05,
-         2.5, 2.95, 3.05, 3.5, 4.0, 5.0, 6.0, 7.0, 8.5, 10.0})
+         2.35, 2.65, 2.95, 3.05, 3.5, 3.95, 4.4, 4.9, 5.1, 5.6, 6.1, 6.7, 7.3, 7.85, 8.15, 8.7, 9.3,
+         9.85, 10.15, 11.0, 12.0, 14.0})
   {
     nodes.push_back(at);
     nodes.push_back(-at);
@@ -142,7 +144,7 @@ TEST(PointSource, InfiniteMediumLong)
     for (std::size_t row = 0; row < table.Rows(); ++row)
     {
       const double r = table.Number(row, "r");
-      if (table.Number(row, "omega") != albedo || (r != 1.0 && r != 2.0 && r != 3.0))
+      if (table.Number(row, "omega") != albedo || r < 1.0 || r > 10.0)
       {
         continue;
       }
@@ -158,7 +160,7 @@ TEST(PointSource, InfiniteMediumLong)
       }
       const Estimate fluence = solved.Fluence(cells);
       report::Relative("albedo " + table.Text(row, "omega") + " r " + table.Text(row, "r"),
-        table.Number(row, "G"), fluence.Mean, 0.02, fluence.StandardError);
+        table.Number(row, "G"), fluence.Mean, r > 3.0 ? 0.03 : 0.02, fluence.StandardError);
     }
   }
 }

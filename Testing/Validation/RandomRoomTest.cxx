@@ -65,12 +65,12 @@ Ray TowardsCell(const Solved& solved, const Vec3& eye, std::size_t cell)
 
 // Luminance within 1 % and contrast within 0.005, the project's promise, beside three joint
 // standard errors.
-void CheckRoom(std::uint64_t seed, std::uint64_t samples)
+void CheckRoom(const std::string& kind, const scenes::RandomRoom& room, std::uint64_t seed,
+  std::uint64_t samples)
 {
-  const scenes::RandomRoom room = scenes::MakeRandomRoom(seed);
   const Solved solved(room.Description);
   const ReferenceIntegrator reference(*solved.TheScene);
-  report::Head("Random room " + std::to_string(seed) + ", albedo " +
+  report::Head("Random " + kind + " " + std::to_string(seed) + ", albedo " +
                std::to_string(room.Description.Albedo) + ", largest extinction " +
                std::to_string(solved.TheScene->Smoke().MaximumExtinction()));
   const std::size_t cells = solved.TheScene->Lights().Signs()[0].Cells.size();
@@ -103,7 +103,7 @@ TEST(RandomRoom, Three)
 {
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
   {
-    CheckRoom(seed, 50000);
+    CheckRoom("room", scenes::MakeRandomRoom(seed), seed, 50000);
   }
 }
 
@@ -111,7 +111,23 @@ TEST(RandomRoom, TwelveLong)
 {
   for (std::uint64_t seed = 11; seed <= 22; ++seed)
   {
-    CheckRoom(seed, 1000000);
+    CheckRoom("room", scenes::MakeRandomRoom(seed), seed, 400000);
+  }
+}
+
+TEST(RandomField, Two)
+{
+  for (std::uint64_t seed = 1; seed <= 2; ++seed)
+  {
+    CheckRoom("field", scenes::MakeRandomField(seed), seed, 50000);
+  }
+}
+
+TEST(RandomField, TwelveLong)
+{
+  for (std::uint64_t seed = 11; seed <= 22; ++seed)
+  {
+    CheckRoom("field", scenes::MakeRandomField(seed), seed, 400000);
   }
 }
 

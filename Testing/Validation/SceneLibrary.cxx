@@ -393,6 +393,50 @@ RandomRoom MakeRandomRoom(std::uint64_t seed)
 }
 
 //--------------------------------------------------------------------------------------------------
+RandomRoom MakeRandomField(std::uint64_t seed)
+{
+  Pcg32 random(seed, 8);
+  const auto between = [&](double low, double high)
+  { return low + (high - low) * random.Uniform(); };
+  RandomRoom field;
+  SceneDescription& scene = field.Description;
+  const Vec3 upper(between(3.0, 6.0), between(2.0, 4.0), between(2.0, 3.0));
+  scene.Albedo = between(0.0, 1.0);
+  const double extinction = between(0.2, 1.2);
+  SmokeGrid grid = UniformSmoke(Vec3(0.0), upper, {24, 16, 12}, extinction);
+  if (seed % 2 == 0)
+  {
+    // Layers: thin smoke below, thicker and thicker above.
+    const double thin = between(0.0, 0.3);
+    for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
+    {
+      const auto layer = static_cast<double>(cell / (24 * 16));
+      grid.Extinction[cell] =
+        static_cast<float>(extinction * std::max(thin, std::min(1.0, 0.25 * (layer - 3.0))));
+    }
+  }
+  scene.Grids.push_back(std::move(grid));
+  // A floor, and a box that stands on it; the sides are open.
+  AddRectangle(
+    scene.Surfaces, Vec3(0.0), {upper.x, 0, 0}, {0, upper.y, 0}, 20, 12, between(0.05, 0.5));
+  const Vec3 box(between(1.0, 2.0), between(0.2, 1.0), 0.0);
+  AddBlock(scene.Surfaces, box, box + Vec3(0.5, 0.5, between(0.3, 1.0)), 0.2, between(0.05, 0.7));
+  // The sign at the far end, then lamps: up to ten emitters in all.
+  const Vec3 sign(upper.x - 0.2, between(0.6, upper.y - 0.6), between(1.2, 1.7));
+  scene.Emitters = Barcode(sign, glm::normalize(Vec3(-1.0, between(-0.3, 0.3), 0.0)), {0, 0, 1},
+    between(0.3, 0.6), between(0.2, 0.4), 2 * static_cast<int>(between(0.0, 4.0)) + 1, 100.0, 0);
+  const int lamps = static_cast<int>(between(0.0, 9.999));
+  for (int lamp = 0; lamp < lamps; ++lamp)
+  {
+    scene.Emitters.push_back(
+      Plate({between(0.3, upper.x - 0.5), between(0.3, upper.y - 0.3), upper.z - 0.1}, {0, 0, -1},
+        {1, 0, 0}, 0.3, 0.3, between(1.0, 10.0)));
+  }
+  field.Eye = {between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.3, 1.7)};
+  return field;
+}
+
+//--------------------------------------------------------------------------------------------------
 SceneDescription Scaled(SceneDescription description, double factor)
 {
   for (SmokeGrid& grid : description.Grids)

@@ -92,6 +92,8 @@ struct RandomRoom
   Vec3 Eye;
 };
 RandomRoom MakeRandomRoom(std::uint64_t seed);
+/// An open field of uniform or layered smoke over a floor, with a box, a sign and up to nine lamps.
+RandomRoom MakeRandomField(std::uint64_t seed);
 
 /// Multiplies all lengths by a factor and divides extinctions by it.
 SceneDescription Scaled(SceneDescription description, double factor);

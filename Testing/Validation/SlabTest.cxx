@@ -79,6 +79,13 @@ TEST(Slab, ThickLong)
   CheckRows(1.0, 10.0, {0.2, 0.8, 0.99, 1.0});
 }
 
+// To the end of the table: 321 layers of a tenth of a mean free path, through which 2 % to nothing
+// of the light comes.
+TEST(Slab, ThickestLong)
+{
+  CheckRows(16.0, 32.0, {0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
+}
+
 /// Conservative slab between black plates: flux, and G / 4 at a quarter of the depth.
 void CheckEquilibrium(const std::vector<double>& depths, double tolerance)
 {
@@ -115,7 +122,7 @@ void CheckEquilibrium(const std::vector<double>& depths, double tolerance)
 
 TEST(Slab, EquilibriumLong)
 {
-  CheckEquilibrium({0.5, 1.0, 2.0, 5.0}, 0.01);
+  CheckEquilibrium({0.5, 1.0, 2.0, 5.0, 10.0, 20.0}, 0.01);
 }
 
 } // namespace

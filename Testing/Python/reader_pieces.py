@@ -1,0 +1,91 @@
+"""Parallel reading: mpiexec -np N pvbatch --symmetric reader_pieces.py PLUGIN DATA_FOLDER OUTPUT_FILE
+
+Each process reads its share of the hall's and the room's meshes; who asks for the whole gets the same bits as one
+process does. Writes checksums of all arrays to the output file, which the test compares over N.
+"""
+
+import hashlib
+import os
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import numpy as np
+from reader_common import Messages, equal, load_plugin, reader, true
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+load_plugin(sys.argv[1])
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+
+
+def digest(data):
+    """A line a block: its name and a checksum of its numbers."""
+    lines = []
+    for block in range(data.GetNumberOfPartitionedDataSets()):
+        grid = data.GetPartition(block, 0)
+        name = data.GetMetaData(block).Get(data.NAME())
+        if grid is None:
+            lines.append("%s: not here" % name)
+            continue
+        sums = hashlib.sha256()
+        for arrays in (grid.GetCellData(), grid.GetPointData()):
+            for i in range(arrays.GetNumberOfArrays()):
+                sums.update(arrays.GetArrayName(i).encode())
+                sums.update(np.ascontiguousarray(vtk_to_numpy(arrays.GetArray(i))).tobytes())
+        for axis in (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()):
+            sums.update(vtk_to_numpy(axis).tobytes())
+        fields = grid.GetFieldData()
+        for i in range(fields.GetNumberOfArrays()):
+            array = fields.GetAbstractArray(i)
+            sums.update(("%s=%s" % (array.GetName(), array.GetValue(0))).encode())
+        lines.append("%s: %s" % (name, sums.hexdigest()))
+    return lines
+
+
+lines = []
+for case, time in (("Room/fds/room.smv", 20.0), ("Hall/fds/hall.smv", 600.0)):
+    path = os.path.join(sys.argv[2], case)
+    # The whole, as filters ask for it.
+    whole = reader(path).GetClientSideObject()
+    whole.UpdateInformation()
+    for port in (0, 3):
+        whole.UpdateTimeStep(time, 0, 1, 0) if port == 0 else whole.Update(port)
+        lines += digest(whole.GetOutputDataObject(port))
+    # A piece, as a view asks for it: no mesh is read twice.
+    part = reader(path).GetClientSideObject()
+    part.UpdateTimeStep(time, rank, ranks, 0)
+    mine = [line for line in digest(part.GetOutputDataObject(0)) if not line.endswith("not here")]
+    if ranks <= 2:
+        equal(len(mine), 2 // ranks, "meshes of rank %d" % rank)
+    fields = part.GetOutputDataObject(0).GetFieldData()
+    lines.append("lumens %r" % fields.GetArray("FlameLumens").GetValue(0))
+
+# What one process cannot read is an error for all, and nobody waits for it: a NaN in the second mesh.
+folder = os.path.join(sys.argv[2], "Room", "fds")
+with tempfile.TemporaryDirectory() as temporary:
+    for name in ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"):
+        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(temporary, name))
+    with open(os.path.join(folder, "room_2_2.sf"), "rb") as file:
+        data = bytearray(file.read())
+    place = 146 + 12 + 4 + 4 * (4 + 17 * (5 + 13 * 6))
+    data[place : place + 4] = np.float32(np.nan).tobytes()
+    with open(os.path.join(temporary, "room_2_2.sf"), "wb") as file:
+        file.write(data)
+    with Messages(temporary) as messages:
+        bad = reader(os.path.join(temporary, "room.smv")).GetClientSideObject()
+        bad.UpdateTimeStep(-2.0, 0, 1, 0)
+    text = "room_2_2.sf" if rank == ranks - 1 else "Another process could not read its meshes"
+    if ranks <= 2:
+        true(text in messages.text, "the error on rank %d" % rank)
+    equal(messages.count("ERROR"), 1, "errors on rank %d" % rank)
+    equal(bad.GetOutputDataObject(0).GetNumberOfPartitionedDataSets(), 0, "meshes of a failed read")
+
+if rank == 0:
+    with open(sys.argv[3], "w") as file:
+        file.write("\n".join(lines) + "\n")
+true(not any("not here" in line for line in lines if line.startswith(("fine", "coarse", "west", "east"))),
+     "all meshes of the whole")
+print("rank %d of %d: as expected" % (rank, ranks), flush=True)

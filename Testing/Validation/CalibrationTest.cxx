@@ -1,0 +1,155 @@
+// Error bars that are true: over many seeds a value leaves the truth by one, two, three reported
+// standard errors as often as it should, and noise does not pass for contrast.
+#include "Contrast.h"
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// A small room that takes milliseconds: the sign of three bars in white, scattering smoke.
+SceneDescription SmallRoom()
+{
+  SceneDescription scene;
+  scene.Albedo = 0.9;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {8, 4, 4}, 1.0)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {2, 1, 1}, 0.5, 0.4);
+  scene.Emitters = scenes::Barcode({2, 0.5, 0.5}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.4, 3, 1.0, 0);
+  scene.Emitters.push_back(scenes::Plate({0.6, 0.5, 0.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1.0));
+  return scene;
+}
+
+const Vec3 Eye{0.05, 0.45, 0.55};
+
+/// Counts deviations in units of the reported standard error.
+class Calibration
+{
+public:
+  Calibration(std::string name, double truth, double truthError)
+      : Name_(std::move(name)), Truth_(truth), TruthError_(truthError)
+  {
+  }
+
+  void Add(const Estimate& value)
+  {
+    // What the truth is not known better than counts with the bar.
+    const double error = std::hypot(value.StandardError, this->TruthError_);
+    const double z = (value.Mean - this->Truth_) / error;
+    ++this->Count_;
+    this->Sum_ += value.Mean;
+    this->Square_ += value.Mean * value.Mean;
+    this->Variance_ += error * error;
+    for (int limit = 1; limit <= 3; ++limit)
+    {
+      this->Within_[limit - 1] += std::abs(z) < limit ? 1 : 0;
+    }
+  }
+
+  /// Sixteen batches give Student's t with 15 degrees of freedom: 66.7, 93.6 and 99.1 % lie within
+  /// 1, 2 and 3. Three standard deviations of the count are allowed, and a discretisation of
+  /// `bound` in the mean.
+  void Judge(double bound) const
+  {
+    constexpr double Expected[3] = {0.6669, 0.9361, 0.9910};
+    for (int limit = 0; limit < 3; ++limit)
+    {
+      const double p = Expected[limit];
+      const double allowed = 3.0 * std::sqrt(p * (1.0 - p) / this->Count_) + 0.5 / this->Count_;
+      report::Absolute(this->Name_ + " within " + std::to_string(limit + 1), p,
+        static_cast<double>(this->Within_[limit]) / this->Count_, allowed);
+    }
+    const double mean = this->Sum_ / this->Count_;
+    const double spread =
+      std::sqrt(std::max(0.0, this->Square_ / this->Count_ - mean * mean) / (this->Count_ - 1.0));
+    report::Relative(
+      this->Name_ + " mean", this->Truth_, mean, bound, std::hypot(spread, this->TruthError_));
+    // The reported variance against the one between seeds, whose relative standard error is
+    // sqrt(2 / n): four of them, for errors' tails are longer than a normal law's.
+    const double ratio = std::sqrt(this->Variance_ / this->Count_) /
+                         std::max(1e-300, spread * std::sqrt(static_cast<double>(this->Count_)));
+    report::Absolute(this->Name_ + " reported over true error", 1.0, ratio,
+      4.0 * std::sqrt(0.5 / this->Count_) + 0.05);
+  }
+
+private:
+  std::string Name_;
+  double Truth_;
+  double TruthError_;
+  int Count_ = 0;
+  std::array<int, 3> Within_{};
+  double Sum_ = 0.0;
+  double Square_ = 0.0;
+  double Variance_ = 0.0;
+};
+
+// The truth is the mean over the seeds of solutions with a tenth of the tolerance: what error bars
+// are to tell is the noise, not the cells' size, which the other tests look at.
+void CheckSeeds(int seeds, double tolerance)
+{
+  const std::vector<std::int64_t> cell = {2 + 8 * (1 + 4 * 2)};
+  const Ray ray{Eye, glm::normalize(Vec3(1.0, 0.25, -0.2))};
+  struct Sums
+  {
+    double Value = 0.0, Square = 0.0;
+    void Add(double value)
+    {
+      this->Value += value;
+      this->Square += value * value;
+    }
+    Estimate Mean(int count) const
+    {
+      const double mean = this->Value / count;
+      return {mean, std::sqrt(std::max(0.0, this->Square / count - mean * mean) / (count - 1.0))};
+    }
+  } fluence, luminance, contrast;
+  const int references = std::max(4, seeds / 10);
+  for (int i = 0; i < references; ++i)
+  {
+    const Solved solved(SmallRoom(), 0.1 * tolerance, 5000 + static_cast<std::uint64_t>(i));
+    fluence.Add(solved.Fluence(cell).Mean);
+    luminance.Add(solved.Luminance(ray).Mean);
+    contrast.Add(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}).Contrast);
+  }
+  const auto make = [references](const std::string& name, const Sums& sums)
+  {
+    const Estimate truth = sums.Mean(references);
+    return Calibration(name, truth.Mean, truth.StandardError);
+  };
+  Calibration ofFluence = make("fluence", fluence);
+  Calibration ofLuminance = make("luminance", luminance);
+  Calibration ofContrast = make("contrast", contrast);
+  for (int seed = 1; seed <= seeds; ++seed)
+  {
+    const Solved solved(SmallRoom(), tolerance, static_cast<std::uint64_t>(seed));
+    ofFluence.Add(solved.Fluence(cell));
+    ofLuminance.Add(solved.Luminance(ray));
+    const SignMeasurement sign = MeasureSign(*solved.TheView, 0, Eye, Observer{0.0});
+    ofContrast.Add({sign.Contrast, sign.ContrastError});
+  }
+  report::Head(
+    "Error bars over " + std::to_string(seeds) + " seeds, tolerance " + std::to_string(tolerance));
+  ofFluence.Judge(0.1 * tolerance);
+  ofLuminance.Judge(0.1 * tolerance);
+  // Noise that passed for contrast would show in this mean.
+  ofContrast.Judge(0.1 * tolerance);
+}
+
+TEST(Calibration, SixtySeeds)
+{
+  CheckSeeds(60, 0.05);
+}
+
+TEST(Calibration, TwoHundredSeedsLong)
+{
+  CheckSeeds(200, 0.05);
+  CheckSeeds(200, 0.01);
+}
+
+} // namespace

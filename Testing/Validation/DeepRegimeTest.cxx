@@ -1,0 +1,57 @@
+// Deep in the smoke, where a sign disappears, the veil decides: the dark bars' luminance down to a
+// millionth of the sign's.
+#include "Contrast.h"
+#include "DeepScenes.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <cmath>
+
+namespace
+{
+
+using namespace smokevis;
+
+// The promise is 2 % of the dark bars; the reference's own standard error and the solver's come on
+// top. The lit bars and the contrast follow: with a dark luminance D and a lit one T + D, where T
+// is the bars' own light, exact, C moves by less than the dark bars' relative error.
+void CheckDeep(const std::string& what, int cut, double tolerance)
+{
+  report::Head("Dark bars of the tunnel's sign, " + what + " [cd/m2]");
+  const report::ReferenceTable table("deep_tunnel_own.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    if (table.Text(row, "name").rfind(what, 0) != 0)
+    {
+      continue;
+    }
+    SceneDescription scene =
+      scenes::Tunnel(table.Number(row, "extinction"), table.Number(row, "albedo"));
+    // Cells of at most 0.15 mean free paths.
+    scene.Grids = {scenes::UniformSmoke(
+      Vec3(0.0), {4, 1, 1}, {40 * cut, 10 * cut, 10 * cut}, table.Number(row, "extinction"))};
+    const Solved solved(scene, tolerance);
+    const SignMeasurement sign = MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
+    report::Relative(table.Text(row, "name") + " mean free paths", table.Number(row, "dark"),
+      sign.UnlitLuminance, 0.02,
+      std::hypot(table.Number(row, "dark_error"), sign.MeanLuminanceError));
+  }
+}
+
+TEST(DeepRegime, Soot)
+{
+  CheckDeep("soot", 1, 0.01);
+}
+
+TEST(DeepRegime, WhiteSmoke)
+{
+  CheckDeep("white", 1, 0.01);
+}
+
+TEST(DeepRegime, FineCellsLong)
+{
+  CheckDeep("soot", 2, 0.003);
+  CheckDeep("white", 2, 0.003);
+}
+
+} // namespace
