@@ -114,6 +114,9 @@ def draw(numbers, path):
         plot.set_title(f"{when:g} s: fire {means['fire']:.2f}, doors {means['doors']:.2f}, "
                        "walls between "
                        f"{means['walls']:.2f}", fontsize=9)
+    for plot in plots.flat:
+        plot.set_xlabel("x [m]")
+        plot.set_ylabel("y [m]")
     figure.colorbar(picture, ax=plots,
                     label="perceived contrast of the best sign; red 0.1, orange 0.2")
     claims.save(figure, path)
