@@ -1,5 +1,5 @@
-"""Claim: in the burning hall the contrast is below 0.1 by the fire and good near doors, and along the
-long walls between doors it is dark."""
+"""Claim: in the burning hall the contrast is below 0.1 by the fire and good near doors, and along
+the long walls between doors it is dark."""
 import importlib.util
 import os
 import sys
@@ -8,7 +8,8 @@ import claims
 import numpy
 from claims import AGREES, DISAGREES, IN_PART, Verdict
 
-CLAIM = ("In the hall the contrast is below 0.1 by the fire, good near doors, and low along the long walls "
+CLAIM = ("In the hall the contrast is below 0.1 by the fire, good near doors, and low along the "
+         "long walls "
          "between doors")
 HALL = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "Hall")
 TIMES = (240.0, 360.0, 480.0, 600.0)  # s
@@ -69,24 +70,30 @@ def compute(_=None, times=TIMES, places=PLACES):
 
 def partly(numbers):
     """The time at which most of the three statements hold, the earliest of them."""
-    found = {when: [means["fire"] < BAD, means["doors"] > GOOD, numbers["darkest"][when] < DARK_AREA]
+    found = {when: [means["fire"] < BAD, means["doors"] > GOOD,
+                    numbers["darkest"][when] < DARK_AREA]
              for when, means in numbers["means"].items()}
     best = max(found, key=lambda when: (sum(found[when]), -when))
     return best, found[best]
 
 
 def judge(numbers):
-    texts = [f"{when:g} s: by the fire {m['fire']:.3f}, near doors {m['doors']:.2f}, along the long walls "
+    texts = [f"{when:g} s: by the fire {m['fire']:.3f}, near doors {m['doors']:.2f}, "
+             "along the long walls "
              f"between doors {m['walls']:.2f}, at the darkest {numbers['darkest'][when]:.2f}"
              for when, m in numbers["means"].items()]
     when, held = partly(numbers)
     return Verdict(
         "; ".join(texts), AGREES if all(held) else IN_PART if any(held) else DISAGREES,
-        "means of the perceived contrast of the best sign at eye level in the dark hall, signs of 300 cd/m2, "
-        f"{BY_FIRE:g} m around the fire, {NEAR_DOOR:g} m around doors, {AT_WALL:g} m along the long walls and "
-        f"{BETWEEN:g} m from any door; at {when:g} s: below {BAD:g} by the fire {'yes' if held[0] else 'no'}, above "
+        "means of the perceived contrast of the best sign at eye level in the dark hall, signs of "
+        "300 cd/m2, "
+        f"{BY_FIRE:g} m around the fire, {NEAR_DOOR:g} m around doors, {AT_WALL:g} m along the "
+        "long walls and "
+        f"{BETWEEN:g} m from any door; at {when:g} s: below {BAD:g} by the fire "
+        f"{'yes' if held[0] else 'no'}, above "
         f"{GOOD:g} near doors {'yes' if held[1] else 'no'}, below {DARK_AREA:g} somewhere between "
-        f"doors {'yes' if held[2] else 'no'}. Earlier the smoke is thinner and signs carry along the walls. The fire is "
+        f"doors {'yes' if held[2] else 'no'}. Earlier the smoke is thinner and signs carry along "
+        "the walls. The fire is "
         "our own FDS run, not the paper's")
 
 
@@ -104,9 +111,14 @@ def draw(numbers, path):
                          levels=levels, linewidths=1,
                          colors=["red" if level == BAD else "orange" for level in levels])
         means = numbers["means"][when]
-        plot.set_title(f"{when:g} s: fire {means['fire']:.2f}, doors {means['doors']:.2f}, walls between "
+        plot.set_title(f"{when:g} s: fire {means['fire']:.2f}, doors {means['doors']:.2f}, "
+                       "walls between "
                        f"{means['walls']:.2f}", fontsize=9)
-    figure.colorbar(picture, ax=plots, label="perceived contrast of the best sign; red 0.1, orange 0.2")
+    for plot in plots.flat:
+        plot.set_xlabel("x [m]")
+        plot.set_ylabel("y [m]")
+    figure.colorbar(picture, ax=plots,
+                    label="perceived contrast of the best sign; red 0.1, orange 0.2")
     claims.save(figure, path)
 
 

@@ -44,11 +44,13 @@ def fit(x, y, degree):
     off = numpy.polyval(coefficients, x) - y
     spread = ((y - numpy.mean(y)) ** 2).sum()
     return Fit(float(x[-1]), len(x), tuple(float(c) for c in coefficients),
-               float(abs(off).max() / y[0]), float(1.0 - (off ** 2).sum() / spread) if spread else 1.0)
+               float(abs(off).max() / y[0]),
+               float(1.0 - (off ** 2).sum() / spread) if spread else 1.0)
 
 
 def fit_range(x, y, degree, allowed=0.05):
-    """The longest polynomial from the first point on that leaves at most a share of the first value."""
+    """The longest polynomial from the first point on that leaves at most a share of the first "
+    "value."""
     x, y = numpy.asarray(x), numpy.asarray(y)
     end = len(x)
     while True:

@@ -9,7 +9,8 @@ import claims
 import numpy
 from claims import AGREES, DISAGREES, Verdict
 
-CLAIM = "The observer's noise, DarkLuminance 0.1 cd/m2, against the literature (not the paper's claim)"
+CLAIM = ("The observer's noise, DarkLuminance 0.1 cd/m2, against the literature "
+         "(not the paper's claim)")
 DEFAULT = 0.1
 THRESHOLD = 0.2
 DETAIL = 10.0  # minutes of arc, a bar of a 0.3 m plate at 10 m
@@ -24,7 +25,8 @@ def adrian(background, minutes):
     who fitted Aulhorn's and Blackwell's (1946) thresholds."""
     log = numpy.log10(background)
     area = numpy.where(
-        background >= 0.6, numpy.log10(4.1925 * background ** 0.1556) + 0.1684 * background ** 0.5867,
+        background >= 0.6,
+        numpy.log10(4.1925 * background ** 0.1556) + 0.1684 * background ** 0.5867,
         numpy.where(background > 0.00418, 10 ** (-0.072 + 0.3372 * log + 0.0866 * log ** 2),
                     10 ** (0.028 + 0.173 * log)))
     weber = numpy.where(
@@ -35,7 +37,8 @@ def adrian(background, minutes):
 
 
 def cie(background):
-    """The same for a disc of 4 minutes shown for 0.2 s: CIE 19/2 (1981), visibility reference function."""
+    """The same for a disc of 4 minutes shown for 0.2 s: CIE 19/2 (1981), visibility reference "
+    "function."""
     return 0.05936 * ((1.639 / background) ** 0.4 + 1.0) ** 2.5 * background
 
 
@@ -46,7 +49,8 @@ def ours(background, noise=DEFAULT):
 
 
 def noise_of_reading(luminance, lit=5.0 / 9.0):
-    """Noise [cd/m2] of an observer who loses a sign, a share of it lit, on a black ground at a luminance."""
+    """Noise [cd/m2] of an observer who loses a sign, a share of it lit, on a black ground at a "
+    "luminance."""
     return luminance * (numpy.sqrt(lit * (1.0 - lit)) / THRESHOLD - lit)
 
 
@@ -56,9 +60,11 @@ def readings():
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     aircraft = next(row for row in rows if "AM-79/22" in row["source"])
     low, high = float(aircraft["KV_low"]), float(aircraft["KV_high"])
-    # FAR 25.812 asks for 86 cd/m2 (25 foot-lamberts); FDS's constant for Jin's signs of 100 to 500 cd/m2.
-    return [("aircraft exit sign, DOT/FAA/AM-79/22", 86.0 * numpy.exp(-high), 86.0 * numpy.exp(-low)),
-            ("Jin, K V = 8, 100 to 500 cd/m2", 100.0 * numpy.exp(-8.0), 500.0 * numpy.exp(-8.0))]
+    # FAR 25.812 asks for 86 cd/m2 (25 foot-lamberts); 8 is FDS's constant, for signs like Jin's.
+    return [("aircraft exit sign, DOT/FAA/AM-79/22",
+             86.0 * numpy.exp(-high), 86.0 * numpy.exp(-low)),
+            ("Jin, K V = 8, 100 to 500 cd/m2",
+             100.0 * numpy.exp(-8.0), 500.0 * numpy.exp(-8.0))]
 
 
 def compute(_=None):
@@ -71,29 +77,37 @@ def compute(_=None):
     over = {minutes: (float((ours(BACKGROUNDS) / adrian(BACKGROUNDS, minutes)).min()),
                       float((ours(BACKGROUNDS) / adrian(BACKGROUNDS, minutes)).max()))
             for minutes in spread}
-    implied = [(name, noise_of_reading(low), noise_of_reading(high)) for name, low, high in readings()]
+    implied = [(name, noise_of_reading(low), noise_of_reading(high))
+               for name, low, high in readings()]
     return {"best": best, "over": over, "implied": implied}
 
 
 def judge(numbers):
-    implied = "; ".join(f"{name}: {low:.2f} to {high:.2f}" for name, low, high in numbers["implied"])
+    implied = "; ".join(
+        f"{name}: {low:.2f} to {high:.2f}" for name, low, high in numbers["implied"])
     best = ", ".join(f"{value:.2f} ({minutes:g}')" for minutes, value in numbers["best"].items())
     low, high = numbers["over"][DETAIL]
     inside = all(a <= DEFAULT <= b for _, a, b in numbers["implied"])
     return Verdict(
-        f"DarkLuminance [cd/m2] that readings ask for: {implied}; that makes 0.2 run parallel to Adrian's "
+        f"DarkLuminance [cd/m2] that readings ask for: {implied}; that makes 0.2 run parallel to "
+        "Adrian's "
         f"thresholds from 0.001 to 1 cd/m2: {best}", AGREES if inside else DISAGREES,
-        f"0.1 lies within what readings of signs in smoke ask for. With it the contrast 0.2 is {low:.0f} to "
-        f"{high:.0f} times what Adrian finds just detectable for details of {DETAIL:g}': to read takes more than "
-        f"to detect. The CIE reference task (4', 0.2 s) needs {cie(1e-9):.3f} cd/m2 in the dark, twice the "
+        "0.1 lies within what readings of signs in smoke ask for. With it the contrast 0.2 is "
+        f"{low:.0f} to "
+        f"{high:.0f} times what Adrian finds just detectable for details of {DETAIL:g}': to read "
+        "takes more than "
+        f"to detect. The CIE reference task (4', 0.2 s) needs {cie(1e-9):.3f} cd/m2 in the dark, "
+        "twice the "
         f"{ours(0.0):.3f} cd/m2 here, where eyes have time and bars are larger")
 
 
 def draw(numbers, path):
     figure, plots = claims.axes(11.0, 4.4, 2)
     plot = plots[0][0]
-    plot.loglog(BACKGROUNDS, ours(BACKGROUNDS), "k-", linewidth=2, label="perceived contrast 0.2, noise 0.1 cd/m2")
-    plot.fill_between(BACKGROUNDS, ours(BACKGROUNDS, 0.03), ours(BACKGROUNDS, 0.3), color="k", alpha=0.1,
+    plot.loglog(BACKGROUNDS, ours(BACKGROUNDS), "k-", linewidth=2,
+                label="perceived contrast 0.2, noise 0.1 cd/m2")
+    plot.fill_between(BACKGROUNDS, ours(BACKGROUNDS, 0.03), ours(BACKGROUNDS, 0.3),
+                      color="k", alpha=0.1,
                       label="the same, noise 0.03 to 0.3 cd/m2")
     for minutes, style in ((5.0, "--"), (10.0, "-"), (20.0, ":")):
         plot.loglog(BACKGROUNDS, adrian(BACKGROUNDS, minutes), style, color="#2060c0",
@@ -109,7 +123,8 @@ def draw(numbers, path):
         plot.text(low, row + 0.15, name, fontsize=8)
     for row, (minutes, value) in enumerate(numbers["best"].items()):
         plot.plot([value], [row + 2], "o", color="#2060c0")
-        plot.text(value * 1.08, row + 2, f"shape of Adrian's thresholds, {minutes:g}'", fontsize=8, va="center")
+        plot.text(value * 1.08, row + 2, f"shape of Adrian's thresholds, {minutes:g}'",
+                  fontsize=8, va="center")
     plot.axvline(DEFAULT, color="k", linewidth=1)
     plot.set_xscale("log")
     plot.set_xlim(0.01, 1.0)

@@ -46,13 +46,15 @@ def judge(numbers):
         ratio = lost(numbers, smoke, "camera") / lost(numbers, smoke, "sign")
         veil = {d: v[0] / v[1] for d, v in zip(numbers["densities"], numbers["veils"][smoke])
                 if 0.0 < d <= 1.0}
-        texts.append(f"{smoke}: takes {ratio:.1f} times the contrast; its veil is {min(veil.values()):.1f} "
+        texts.append(f"{smoke}: takes {ratio:.1f} times the contrast; "
+                     f"its veil is {min(veil.values()):.1f} "
                      f"to {max(veil.values()):.0f} times as bright from 0.1 to 1/m")
         good.append(ratio > 1.0 and min(veil.values()) > 1.0)
     spread = numbers["varied"].values()
     return Verdict(
         "; ".join(texts), AGREES if all(good) else IN_PART if any(good) else DISAGREES,
-        "the camera looks through the glow of the near lamp, and that of the far one is weakened on its "
+        "the camera looks through the glow of the near lamp, and that of the far one is weakened "
+        "on its "
         "way. Lamps 0.25 to 1 m from the ends and walls of 0.05 to 0.5 give veils "
         f"{min(spread):.1f} to {max(spread):.1f} times as bright at {VARIED_AT:g}/m")
 

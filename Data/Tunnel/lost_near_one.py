@@ -5,7 +5,8 @@ import claims
 import tunnel as scene
 from claims import AGREES, DISAGREES, IN_PART, Verdict
 
-CLAIM = "Without ambient light the sign is lost (contrast 0.2) near an optical density of 1 per metre"
+CLAIM = ("Without ambient light the sign is lost (contrast 0.2) near an optical density of 1 per "
+         "metre")
 LUMINANCES = (100.0, 500.0, 2000.0)  # cd/m2
 NOISES = (0.03, 0.1, 0.3)  # cd/m2
 SIGNS = (("square", "red"), ("barcode", "red"), ("square", "green"), ("barcode", "green"))
@@ -14,8 +15,9 @@ NEAR = 0.2
 
 
 def contrast_over(tunnel, densities, smoke, pattern, colour, luminance, noise, **open_choices):
-    return [scene.contrast(tunnel.picture(smoke, d, pattern, colour, luminance, **open_choices), noise)
-            for d in densities]
+    return [scene.contrast(
+        tunnel.picture(smoke, d, pattern, colour, luminance, **open_choices), noise)
+        for d in densities]
 
 
 def compute(tunnel, densities=scene.DENSITIES, signs=SIGNS):
@@ -46,9 +48,12 @@ def judge(numbers):
     last = numbers["densities"][-1]
     return Verdict(
         "; ".join(texts), AGREES if all(good) else IN_PART if any(good) else DISAGREES,
-        f"at {scene.SIGN_LUMINANCE:g} cd/m2 and a noise of {scene.DARK:g} cd/m2, both open in the paper; "
-        f"for {LUMINANCES[0]:g} to {LUMINANCES[-1]:g} cd/m2 and {NOISES[0]:g} to {NOISES[-1]:g} cd/m2 it is "
-        f"{min(spread):.2f} to {max(spread):.2f}. Green in soot is lost earlier, its extinction is 1.19 times "
+        f"at {scene.SIGN_LUMINANCE:g} cd/m2 and a noise of {scene.DARK:g} cd/m2, both open in the "
+        "paper; "
+        f"for {LUMINANCES[0]:g} to {LUMINANCES[-1]:g} cd/m2 and {NOISES[0]:g} to {NOISES[-1]:g} "
+        "cd/m2 it is "
+        f"{min(spread):.2f} to {max(spread):.2f}. Green in soot is lost earlier, its extinction "
+        "is 1.19 times "
         "that at 633 nm. The sign is lost for its faintness: without noise of "
         f"eye or camera the contrast at {last:g}/m is still {plain['glycol']:.2f} (glycol) and "
         f"{plain['soot']:.2f} (soot)")

@@ -29,7 +29,8 @@ def take(folder, densities=DENSITIES, binning=16):
             Emitters=tunnel.emitters("square", scene.SQUARE, scene.LAMP_FROM_END, luminance),
             Tolerance=0.02)
         view = simple.VisibilityImage(
-            LightField=light, CameraPosition=scene.CAMERA, CameraFocalPoint=[scene.SIZE[0], 0.5, 0.5],
+            LightField=light, CameraPosition=scene.CAMERA,
+            CameraFocalPoint=[scene.SIZE[0], 0.5, 0.5],
             CameraModel="Canon EOS 10D", PixelBinning=binning, FocalLength=50, FNumber=5.6, ISO=100,
             FocusDistance=FOCUS)
         name = os.path.join(folder, f"photograph_{density:g}")

@@ -38,7 +38,8 @@ def compute(tunnel, densities=scene.DENSITIES, patterns=("square", "barcode"), c
                                   for colour in ("red", "green")]
                     # Two solutions with errors of their own; in glycol one and the same.
                     same = scene.SMOKES[smoke][1] == 0.0
-                    rows.append((red[0] - green[0], 0.0 if same else float(numpy.hypot(red[1], green[1]))))
+                    error = 0.0 if same else float(numpy.hypot(red[1], green[1]))
+                    rows.append((red[0] - green[0], error))
                 differences[smoke, pattern, case] = rows
     return {"densities": list(densities), "differences": differences}
 
@@ -57,16 +58,22 @@ def judge(numbers):
         if key[0] == "soot":
             value, where, error, rest = peak(numbers, key)
             thin = dict(zip(numbers["densities"], numbers["differences"][key]))[0.3][0]
-            texts.append(f"soot, {key[1]}, {key[2]}: {thin:+.3f} at 0.3/m, largest {value:+.2f} ({error:.1g}) at "
-                         f"{where:g}/m, {100 * rest:.0f} % of that at {numbers['densities'][-1]:g}/m")
+            texts.append(f"soot, {key[1]}, {key[2]}: {thin:+.3f} at 0.3/m, "
+                         f"largest {value:+.2f} ({error:.1g}) at "
+                         f"{where:g}/m, {100 * abs(rest):.0f} % of that at "
+                         f"{numbers['densities'][-1]:g}/m")
             good.append(value > 3.0 * error and rest < 0.5)
     texts.append("glycol: 0, its droplets weaken all colours alike")
     return Verdict(
         "; ".join(texts), IN_PART if all(good) else DISAGREES,
-        "errors in brackets; in soot, whose extinction falls as 1/wavelength, red is ahead everywhere and the difference "
-        "vanishes where both are lost, but it first grows: in clear air the two are equal, and it is "
-        "largest near the threshold. In the paper's fog of droplets the physics gives no difference; one "
-        "in clear air must come from the signs (unequal luminance) or from the camera's response to colour")
+        "errors in brackets; in soot, whose extinction falls as 1/wavelength, red is ahead "
+        "everywhere and the difference "
+        "vanishes where both are lost, but it first grows: in clear air the two are equal, and it "
+        "is "
+        "largest near the threshold. In a fog of droplets the physics gives no "
+        "difference; one "
+        "in clear air must come from the signs (unequal luminance) or from the camera's response "
+        "to colour")
 
 
 def draw(numbers, path):
@@ -77,7 +84,8 @@ def draw(numbers, path):
         plot.errorbar(numbers["densities"], value, yerr=2.0 * error, capsize=3, markersize=4,
                       fmt="-o" if pattern == "square" else "--s", color=claims.COLOURS[smoke],
                       label=f"{smoke}, {pattern}")
-        plot.set_title(f"Red (630 nm) minus green (532 nm), {case}; bars: 2 standard errors", fontsize=9)
+        plot.set_title(f"Red (630 nm) minus green (532 nm), {case}; bars: 2 standard errors",
+                       fontsize=9)
         plot.set_xlabel("optical density at 633 nm [1/m]")
         plot.grid(alpha=0.3)
     plots[0][0].set_ylabel("difference of perceived contrast")

@@ -19,7 +19,8 @@ def curves(tunnel, pattern, densities):
     result = {}
     for smoke in scene.SMOKES:
         for case, lamps in CASES:
-            found = [scene.measures(tunnel.picture(smoke, d, pattern, lamps=lamps)) for d in densities]
+            found = [scene.measures(tunnel.picture(smoke, d, pattern, lamps=lamps))
+                     for d in densities]
             for measure in MEASURES:
                 result[smoke, case, measure] = [values[measure] for values in found]
     return result
@@ -44,7 +45,8 @@ def judge(numbers):
     for key, found in numbers["fits"].items():
         end, fall = reach(numbers, key)
         # The line is to hold for most of the fall, or for as far as we looked.
-        whole[key] = found.points > 3 and found.r2 > 0.98 and (fall >= 0.5 or end == numbers["densities"][-1])
+        whole[key] = found.points > 3 and found.r2 > 0.98 and (
+            fall >= 0.5 or end == numbers["densities"][-1])
         if key[1] == "dark" or key[2] == "photograph":
             texts.append(f"{', '.join(key)}: line to {end:.1f}/m (falls by {100 * fall:.0f} %, R2 "
                          f"{found.r2:.3f})")
@@ -53,12 +55,17 @@ def judge(numbers):
     return Verdict(
         "; ".join(texts),
         AGREES if all(whole.values()) else IN_PART if any(whole.values()) else DISAGREES,
-        "the photograph in glycol, which comes nearest to what the paper measured (8-bit values of a film-like "
-        "response, metered each time), falls along a line almost to the threshold. The luminance does not: smoke "
-        "dims lit and unlit parts alike and only its glow lowers their ratio, slowly at first in glycol "
-        f"(by {slopes['glycol']:.2f} a 1/m) and hardly at all in soot ({slopes['soot']:.2f} a 1/m). What an eye "
-        "perceives is no line either: it stays high until the sign is as faint as the eye's noise and then falls "
-        "steeply. The line is a property of the camera's response and of white smoke")
+        "the photograph, 8-bit values of a film-like response metered each time, comes nearest to "
+        "what the paper measured; with lamps or in glycol it falls along a line for most of its "
+        "way. "
+        "The luminance does not: smoke dims lit and unlit parts alike and only its glow lowers "
+        "their "
+        f"ratio, slowly at first in glycol (by {slopes['glycol']:.2f} a 1/m) and hardly at all in "
+        "soot "
+        f"({slopes['soot']:.2f} a 1/m). What an eye perceives is no line either: it stays high "
+        "until "
+        "the sign is as faint as the eye's noise and then falls steeply. The line is a property of "
+        "the camera's response")
 
 
 def draw(numbers, path, title="Red square sign"):

@@ -23,8 +23,8 @@ import photographs  # noqa: E402
 import red_before_green  # noqa: E402
 import square_falls_linearly  # noqa: E402
 
-CLAIMS = (square_falls_linearly, barcode_bends, red_before_green, ambient_over_colour, lamp_near_camera,
-          lost_near_one, burning_hall, eye_noise, jin)
+CLAIMS = (square_falls_linearly, barcode_bends, red_before_green, ambient_over_colour,
+          lamp_near_camera, lost_near_one, burning_hall, eye_noise, jin)
 
 rows = []
 for module in CLAIMS:

@@ -2,10 +2,9 @@
 camera in it sees.
 
 The light of several sources adds up. So each source (a sign's pattern, the lamp near the sign, the
-lamp near the camera) is solved alone, for a luminance of 1 cd/m2, and the picture of the sign's plate that
-the camera gets from each is kept. Any mixture of luminances is then a sum of pictures, and its contrast
-(standard deviation over mean, the paper's eq. 4) follows at once. `check_sum` in the test shows that a
-mixture that is solved in one go comes out the same.
+lamp near the camera) is solved alone, for a luminance of 1 cd/m2, and the picture of the sign's
+plate that the camera gets from each is kept. Any mixture of luminances is then a sum of pictures,
+and its contrast (standard deviation over mean, the paper's eq. 4) follows at once.
 """
 import hashlib
 import json
@@ -38,8 +37,8 @@ THRESHOLD, BAND = 0.2, 0.04  # of perceived contrast, and its spread over observ
 WAVELENGTH = {"red": 630.0, "green": 532.0, "lamp": 555.0}
 GIVEN = 633.0
 
-# Albedo and Angstrom exponent. Glycol: droplets of about 1 um that do not absorb and weaken all colours
-# alike. Soot: Bond and Bergstrom (2006), 0.25; Ouf et al. (2008), 1.03, rounded.
+# Albedo and Angstrom exponent. Glycol: droplets of about 1 um that do not absorb and weaken all
+# colours alike. Soot: Bond and Bergstrom (2006), 0.25; Ouf et al. (2008), 1.03, rounded.
 SMOKES = {"glycol": (0.99, 0.0), "soot": (0.25, 1.0)}
 
 # Per metre, decadic; the extinction coefficient is 2.303 times that.
@@ -204,8 +203,8 @@ class Tunnel:
 
     def lamp(self, smoke, density, which, **open_choices):
         """The veil of a white lamp of 1 cd/m2."""
-        return self.plate(extinction(density, smoke, "lamp"), SMOKES[smoke][0], "lamp near " + which,
-                          **open_choices)
+        return self.plate(extinction(density, smoke, "lamp"), SMOKES[smoke][0],
+                          "lamp near " + which, **open_choices)
 
     def picture(self, smoke, density, pattern, colour="red", luminance=SIGN_LUMINANCE, lamps=(),
                 flux=LAMP_FLUX, **open_choices):

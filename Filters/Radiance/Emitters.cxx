@@ -1,6 +1,7 @@
 #include "Emitters.h"
 
 #include "Errors.h"
+#include "PlatePattern.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,10 @@ namespace smokevis
 
 namespace
 {
+
+/// A light of more leaves is replaced by a lattice with so many rectangles along its longer side.
+constexpr std::size_t MostLeaves = 20;
+constexpr double LatticeAcross = 4.0;
 
 /// Newell's normal of a polygon; its length is twice the area.
 Vec3 AreaVector(const std::vector<Vec3>& vertices)
@@ -300,8 +305,85 @@ void EmitterSet::BuildLights(double largestLight)
   {
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
+    if (leaves.size() > MostLeaves)
+    {
+      leaves = this->Coarsened(leaves);
+    }
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
   }
+}
+
+std::vector<LightGroup> EmitterSet::Coarsened(const std::vector<LightGroup>& leaves) const
+{
+  const LightGroup& first = leaves.front();
+  const Vec3& origin = first.Corners[0];
+  const Vec3 u = glm::normalize(first.Corners[1] - origin);
+  const Vec3 v = glm::cross(first.Normal, u);
+  const auto place = [&](const Vec3& point)
+  { return glm::dvec2(glm::dot(point - origin, u), glm::dot(point - origin, v)); };
+  glm::dvec2 low(1e300);
+  glm::dvec2 high(-1e300);
+  for (const LightGroup& leaf : leaves)
+  {
+    for (const Vec3& corner : leaf.Corners)
+    {
+      low = glm::min(low, place(corner));
+      high = glm::max(high, place(corner));
+    }
+  }
+  const glm::dvec2 size = high - low;
+  std::vector<PatternCell> cells;
+  for (const LightGroup& leaf : leaves)
+  {
+    PatternCell cell;
+    for (const Vec3& corner : leaf.Corners)
+    {
+      cell.Corners.push_back((place(corner) - low) / size);
+    }
+    cell.Value[0] = 1.0;
+    for (int band = 0; band < MaxBands; ++band)
+    {
+      cell.Value[1 + band] = leaf.Intensity[band] / leaf.Area;
+    }
+    cells.push_back(std::move(cell));
+  }
+  const double edge = std::max(size.x, size.y) / LatticeAcross;
+  const auto borders = [edge](double length)
+  {
+    const int count = std::max(1, static_cast<int>(std::lround(length / edge)));
+    std::vector<double> ends;
+    for (int i = 0; i <= count; ++i)
+    {
+      ends.push_back(static_cast<double>(i) / count);
+    }
+    return ends;
+  };
+  const std::vector<double> across = borders(size.x);
+  const std::vector<double> up = borders(size.y);
+  const PlatePattern pattern(cells, PatternAxis(across, 0), PatternAxis(up, 0));
+  const auto corner = [&](std::size_t column, std::size_t row)
+  { return origin + (low.x + across[column] * size.x) * u + (low.y + up[row] * size.y) * v; };
+  std::vector<LightGroup> lattice;
+  for (std::size_t row = 0; row + 1 < up.size(); ++row)
+  {
+    for (std::size_t column = 0; column + 1 < across.size(); ++column)
+    {
+      const PatternVector& sum = pattern.Blocks()[column + row * (across.size() - 1)].Sum;
+      EmitterCell mean;
+      const double area = size.x * size.y * (across[1] - across[0]) * (up[1] - up[0]);
+      for (int band = 0; band < MaxBands; ++band)
+      {
+        mean.Luminance[band] = sum[1 + band] * size.x * size.y / area;
+      }
+      if (*std::max_element(mean.Luminance.begin(), mean.Luminance.end()) > 0.0)
+      {
+        lattice.push_back(MakeLeaf(mean, first.Normal, first.Law,
+          {corner(column, row), corner(column + 1, row), corner(column + 1, row + 1),
+            corner(column, row + 1)}));
+      }
+    }
+  }
+  return lattice;
 }
 
 void EmitterSet::FillGroup(

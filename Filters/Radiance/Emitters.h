@@ -69,8 +69,10 @@ struct LightGroup
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells
-/// of lamps, that share a plane) form one light, a tree of groups. A luminous body that is large
-/// against the scene, such as a wall, is met by random lines often enough to leave it to them.
+/// of lamps, that share a plane) form one light, a tree of groups. A pattern of very many cells
+/// lights its surroundings as a lattice of rectangles of the same intensity does. A luminous body
+/// that is large against the scene, such as a wall, is met by random lines often enough to leave it
+/// to them.
 class EmitterSet
 {
 public:
@@ -105,6 +107,8 @@ private:
   /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
   void BuildLights(double largestLight);
+  /// A lattice of rectangles that send out what a pattern of many leaves does.
+  std::vector<LightGroup> Coarsened(const std::vector<LightGroup>& leaves) const;
   void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);
 
   int Bands_ = 1;

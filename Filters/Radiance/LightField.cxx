@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -381,7 +382,15 @@ void Solver::SolveMultiple(int band)
       lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
     }
   }
-  const auto [plates, rays] = PlateGather(this->Scene_, this->Options_, this->Field_, band).Run();
+  std::size_t plates = 0;
+  std::size_t rays = 0;
+  this->Arena_.execute(
+    [&]
+    {
+      std::tie(plates, rays) =
+        PlateGather(this->Scene_, this->Options_, this->Field_, band).Run(this->Progress_);
+    });
+  this->CheckStop();
   this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");

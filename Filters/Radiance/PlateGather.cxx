@@ -7,6 +7,7 @@
 #include <map>
 
 #include <glm/gtc/constants.hpp>
+#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -34,19 +35,32 @@ PlateGather::PlateGather(
   this->LargestPlate_ = LargestShare * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-std::pair<std::size_t, std::size_t> PlateGather::Run()
+std::pair<std::size_t, std::size_t> PlateGather::Run(const Progress& progress)
 {
   const std::vector<Sign>& signs = this->Scene_.Lights().Signs();
-  std::size_t count = 0;
+  std::vector<std::size_t> wanted;
   for (std::size_t sign = 0; sign < signs.size(); ++sign)
   {
     if (this->Wanted(signs[sign]))
     {
-      this->Gather(sign);
-      ++count;
+      wanted.push_back(sign);
     }
   }
-  return {count, this->Rays_};
+  // Signs see each other as the lines left them, whichever is gathered first.
+  std::vector<Result> results(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(),
+    [&](std::size_t i) { results[i] = this->Gather(wanted[i], progress); });
+  std::size_t rays = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    rays += results[i].Rays;
+    for (const std::size_t cell : signs[wanted[i]].Cells)
+    {
+      this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
+        this->Band_, this->Scene_.SurfacePatches() + cell, 0)] = results[i].Illuminance;
+    }
+  }
+  return {wanted.size(), rays};
 }
 
 bool PlateGather::Wanted(const Sign& sign) const
@@ -64,7 +78,7 @@ bool PlateGather::Wanted(const Sign& sign) const
   return plane && reflects && area <= this->LargestPlate_;
 }
 
-void PlateGather::Gather(std::size_t index)
+PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progress) const
 {
   const Sign& sign = this->Scene_.Lights().Signs()[index];
   const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
@@ -84,7 +98,8 @@ void PlateGather::Gather(std::size_t index)
   direct /= area;
 
   std::array<double, Batches> sums{};
-  Lanes illuminance;
+  Result result;
+  Lanes& illuminance = result.Illuminance;
   int done = 0;
   for (int rays = FirstRays;; rays *= 2)
   {
@@ -105,10 +120,10 @@ void PlateGather::Gather(std::size_t index)
       }
       illuminance[batch] = static_cast<float>(sums[batch] / rays);
     }
-    this->Rays_ += static_cast<std::size_t>(Batches) * (rays - done);
+    result.Rays += static_cast<std::size_t>(Batches) * (rays - done);
     done = rays;
     if (StandardError(illuminance) <= this->Options_.Tolerance * (Mean(illuminance) + direct) ||
-        2 * rays > MostRays)
+        2 * rays > MostRays || progress.ShouldStop())
     {
       break;
     }
@@ -118,11 +133,7 @@ void PlateGather::Gather(std::size_t index)
   {
     value += glow;
   }
-  for (const std::size_t cell : sign.Cells)
-  {
-    this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
-      this->Band_, this->Scene_.SurfacePatches() + cell, 0)] = illuminance;
-  }
+  return result;
 }
 
 double PlateGather::Glow(const Sign& sign) const

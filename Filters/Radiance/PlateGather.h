@@ -18,12 +18,18 @@ public:
   /// @param field holds all light of the band; receives the new illuminances of fronts
   PlateGather(const Scene& scene, const LightFieldOptions& options, LightField& field, int band);
 
-  /// All plates. Returns how many were gathered, and how many rays that took.
-  std::pair<std::size_t, std::size_t> Run();
+  /// All plates, in parallel, unless it is stopped. Returns how many were gathered, and how many
+  /// rays that took.
+  std::pair<std::size_t, std::size_t> Run(const Progress& progress);
 
 private:
   bool Wanted(const Sign& sign) const;
-  void Gather(std::size_t index);
+  struct Result
+  {
+    Lanes Illuminance;
+    std::size_t Rays = 0;
+  };
+  Result Gather(std::size_t index, const Progress& progress) const;
   /// Light that comes in against a ray in one batch, without what emitters send directly [cd/m2].
   double Radiance(const Vec3& origin, const Vec3& direction, int batch) const;
   double Leaving(const Hit& hit, const Vec3& direction, int batch) const;
@@ -38,7 +44,6 @@ private:
   int Band_;
   /// A sign whose area is larger is a wall [m2].
   double LargestPlate_;
-  std::size_t Rays_ = 0;
 };
 
 } // namespace smokevis

@@ -123,8 +123,8 @@ FileHeader ReadColladaHeader(const std::string& fileName)
 FileHeader ReadDxfHeader(const std::string& fileName)
 {
   // The codes of INSUNITS, DXF Reference, "HEADER Section Group Codes".
-  static const std::map<int, double> lengths = {{1, 0.0254}, {2, 0.3048}, {3, 1609.344}, {4, 1e-3},
-    {5, 1e-2}, {6, 1.0}, {7, 1e3}, {8, 2.54e-8}, {9, 2.54e-5}, {10, 0.9144}, {11, 1e-10},
+  static const std::map<double, double> lengths = {{1, 0.0254}, {2, 0.3048}, {3, 1609.344},
+    {4, 1e-3}, {5, 1e-2}, {6, 1.0}, {7, 1e3}, {8, 2.54e-8}, {9, 2.54e-5}, {10, 0.9144}, {11, 1e-10},
     {12, 1e-9}, {13, 1e-6}, {14, 0.1}, {15, 10.0}, {16, 100.0}};
   FileHeader header;
   std::ifstream file(fileName);
@@ -139,7 +139,7 @@ FileHeader ReadDxfHeader(const std::string& fileName)
     std::string code, value;
     if (text == "$INSUNITS" && std::getline(file, code) && std::getline(file, value))
     {
-      const auto found = lengths.find(static_cast<int>(RecordNumber(value)));
+      const auto found = lengths.find(RecordNumber(value));
       header.UnitScale = found == lengths.end() ? 0.0 : found->second;
       break;
     }

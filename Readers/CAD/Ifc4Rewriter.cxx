@@ -26,14 +26,21 @@ constexpr std::array<std::string_view, 6> Unreadable = {"IFCADVANCEDBREP",
 
 using Records = std::map<std::string_view, std::string_view>;
 
+/// A number that counts something; 0 for what is none.
+std::size_t Count(std::string_view field)
+{
+  constexpr double most = 1e15;
+  const double value = RecordNumber(field);
+  return value >= 1.0 && value <= most ? static_cast<std::size_t>(value) : 0;
+}
+
 /// Whole numbers of a list, `(1,2,3)`.
 std::vector<std::size_t> Indices(std::string_view list)
 {
   std::vector<std::size_t> indices;
   for (const std::string_view field : SplitRecord(list).Fields)
   {
-    const double value = RecordNumber(field);
-    indices.push_back(value >= 1.0 ? static_cast<std::size_t>(value) : 0);
+    indices.push_back(Count(field));
   }
   return indices;
 }
@@ -115,8 +122,7 @@ private:
         {
           return;
         }
-        this->Next_ =
-          std::max(this->Next_, static_cast<std::size_t>(RecordNumber(number.substr(1))));
+        this->Next_ = std::max(this->Next_, Count(number.substr(1)));
         const std::string_view name = body.substr(0, body.find('('));
         if (name == "IFCCARTESIANPOINTLIST3D" || name == "IFCCARTESIANPOINTLIST2D")
         {

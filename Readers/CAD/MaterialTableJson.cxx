@@ -140,12 +140,13 @@ std::vector<MaterialRow> ReadMaterialJson(const std::string& fileName, const std
     table = Json::parse(CountingIterator(text.data(), &read),
       CountingIterator(text.data() + text.size(), &read), note);
   }
-  catch (const Json::parse_error& error)
+  catch (const Json::exception& error)
   {
-    std::string what = error.what();
+    const std::string what = error.what();
     const std::size_t colon = what.rfind(": ");
-    throw Error(
-      where + ", line " + std::to_string(LineOf(text, error.byte > 0 ? error.byte - 1 : 0)),
+    // What was read last is at most the character behind the one that is wrong.
+    const auto byte = static_cast<std::size_t>(read - text.data());
+    throw Error(where + ", line " + std::to_string(LineOf(text, byte > 0 ? byte - 1 : 0)),
       "it is not JSON (" + (colon == std::string::npos ? what : what.substr(colon + 2)) + ")",
       "Write an array of objects, such as [{\"name\": \"Glazing*\", \"drop\": true}]");
   }

@@ -360,12 +360,14 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
   {
     const std::size_t frame = mix.Frame[part];
     const double frameTime = field.File().FrameTimes()[frame];
-    field.ReadFrame(frame, solid, scratch.Values);
-    if (of.Quantity == SmokeQuantity::Visibility)
+    const auto invert = [&](std::vector<float>& values)
     {
-      std::transform(scratch.Values.begin(), scratch.Values.end(), scratch.Values.begin(),
-        [factor](float s) { return factor / s; });
-    }
+      if (of.Quantity == SmokeQuantity::Visibility)
+      {
+        std::transform(values.begin(), values.end(), values.begin(),
+          [factor](float visibility) { return factor / visibility; });
+      }
+    };
     if (term.Density)
     {
       scratch.Density.assign(sum.size(), 0.0F);
@@ -377,7 +379,7 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
     const bool scaled = of.Quantity != SmokeQuantity::Visibility && factor != 1.0F;
     const bool last = part + 1 == parts;
     const bool changes = scaled || term.Density || !solid.empty() || mode.UsesCovered;
-    field.ForEachRow(scratch.Values,
+    field.ForEachRow(frame, solid, scratch.Values, invert,
       [&](std::size_t cell, int j, int k, std::span<const float> row)
       {
         if (changes)

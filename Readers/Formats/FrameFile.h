@@ -1,8 +1,10 @@
 // What all files of values over time have in common.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,18 @@ public:
   {
     this->ReadFrame(frame, values);
   }
+
+  /// Whether ReadPart() works: parts that fit into a processor's cache are handled faster.
+  virtual bool ReadsParts() const { return false; }
+
+  /// Reads stored values from position @p first on. CloseParts() ends a series of parts.
+  virtual void ReadPart(std::size_t frame, std::size_t first, std::span<float> values)
+  {
+    std::vector<float> all;
+    this->ReadStored(frame, all);
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), values.size(), values.begin());
+  }
+  virtual void CloseParts() {}
 };
 
 } // namespace smokevis

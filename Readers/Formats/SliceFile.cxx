@@ -98,6 +98,16 @@ void SliceFile::IndexFrames()
 }
 
 //------------------------------------------------------------------------------------------------
+void SliceFile::ReadPart(std::size_t frame, std::size_t first, std::span<float> values)
+{
+  // The frame's markers were checked when the file was opened.
+  const std::uint64_t frameBytes = TimeRecordBytes + valueBytes_ + FortranRecords::MarkerBytes;
+  const std::uint64_t begin =
+    firstFrame_ + frame * frameBytes + TimeRecordBytes + sizeof(std::uint32_t);
+  records_.ReadInside(begin + first * sizeof(float), values);
+}
+
+//------------------------------------------------------------------------------------------------
 void SliceFile::ReadStored(std::size_t frame, std::vector<float>& values)
 {
   const std::uint64_t frameBytes = TimeRecordBytes + valueBytes_ + FortranRecords::MarkerBytes;

@@ -37,6 +37,9 @@ public:
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
   const std::array<int, 3>& StoredDimensions() const override { return stored_; }
   void ReadStored(std::size_t frame, std::vector<float>& values) override;
+  bool ReadsParts() const override { return true; }
+  void ReadPart(std::size_t frame, std::size_t first, std::span<float> values) override;
+  void CloseParts() override { records_.Close(); }
 
 private:
   void IndexFrames();

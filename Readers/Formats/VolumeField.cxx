@@ -88,8 +88,8 @@ double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
   for (std::size_t part = 0; part < 2 && (part == 0 || mix.Weight[part] > 0.0); ++part)
   {
     const auto weight = static_cast<float>(mix.Weight[part]);
-    this->ReadFrame(mix.Frame[part], solid, scratch);
-    this->ForEachRow(scratch,
+    this->ForEachRow(
+      mix.Frame[part], solid, scratch, [](std::vector<float>&) {},
       [&](std::size_t cell, int, int, std::span<const float> row)
       {
         for (std::size_t i = 0; i < row.size(); ++i)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,17 +29,17 @@ public:
   const FrameFile& File() const { return *file_; }
   const FrameTimes& Times() const { return times_; }
 
-  /// Reads a frame as the file stores it, on its nodes or cells. Of 8-bit smoke, where FDS averaged
-  /// solid cells in as clear ones, they are taken out again. @p solid marks the mesh's solid cells,
-  /// empty for none.
-  void ReadFrame(
-    std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values);
-
-  /// Calls visit(cell, j, k, row) for each row of cells of the range, where cell is the number of
-  /// the first and row, a std::span<const float>, the values of all; a cell gets the mean of its
-  /// eight nodes. FDS gives a node the mean over its gas cells, and 0 without any; all
-  /// eight nodes of a gas cell have one: the cell itself. @p values are those of ReadFrame().
-  template <class Visit> void ForEachRow(const std::vector<float>& values, Visit&& visit) const;
+  /// Reads a frame and calls visit(cell, j, k, row) for each row of cells of the range, where cell
+  /// is the number of the first and row, a std::span<const float>, the values of all; a cell gets
+  /// the mean of its eight nodes. FDS gives a node the mean over its gas cells, and 0 without any;
+  /// all eight nodes of a gas cell have one: the cell itself. Of 8-bit smoke, where FDS averaged
+  /// solid cells in as clear ones, they are taken out again.
+  /// @param solid   marks the mesh's solid cells; empty for none
+  /// @param scratch working space
+  /// @param prepare prepare(values) may change the values that the file has first
+  template <class Prepare, class Visit>
+  void ForEachRow(std::size_t frame, const std::vector<unsigned char>& solid,
+    std::vector<float>& scratch, Prepare&& prepare, Visit&& visit);
 
   /// Sets the cells that the field covers to its values at @p time; leaves solids and others alone.
   /// @p scratch is working space. Returns the time that the values are of.
@@ -46,6 +47,13 @@ public:
     const std::vector<unsigned char>& solid, std::vector<float>& scratch, std::span<float> cells);
 
 private:
+  void ReadFrame(
+    std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values);
+
+  /// Visits the rows of layers [begin, end); @p first is the first value of the first of them.
+  template <class Visit>
+  void VisitLayers(int begin, int end, const float* first, Visit&& visit) const;
+
   const SmvMesh& mesh_;
   SmokeCandidate of_;
   std::unique_ptr<FrameFile> file_;
@@ -53,45 +61,81 @@ private:
 };
 
 //------------------------------------------------------------------------------------------------
-template <class Visit>
-void VolumeField::ForEachRow(const std::vector<float>& values, Visit&& visit) const
+template <class Prepare, class Visit>
+void VolumeField::ForEachRow(std::size_t frame, const std::vector<unsigned char>& solid,
+  std::vector<float>& scratch, Prepare&& prepare, Visit&& visit)
 {
   const IndexRange& r = of_.Range;
-  const auto nx = static_cast<std::size_t>(mesh_.Cells(0));
-  const auto ny = static_cast<std::size_t>(mesh_.Cells(1));
   const std::array<int, 3>& stored = file_->StoredDimensions();
   const std::array<int, 3>& used = file_->Dimensions();
   const auto stride = static_cast<std::size_t>(stored[0]);
   const std::size_t layer = stride * static_cast<std::size_t>(stored[1]);
-  const float* const first = values.data() + (stored[2] - used[2]) * layer +
-                             (stored[1] - used[1]) * stride + (stored[0] - used[0]);
-  const auto length = static_cast<std::size_t>(r[1] - r[0]);
-  std::vector<float> row(length + 1);
-  for (int k = r[4]; k < r[5]; ++k)
+  // What is stored before the first value that is used, in a layer and of layers.
+  const std::size_t surplus = (stored[1] - used[1]) * stride + (stored[0] - used[0]);
+  const auto ghosts = static_cast<std::size_t>(stored[2] - used[2]);
+  if (!file_->ReadsParts())
   {
+    this->ReadFrame(frame, solid, scratch);
+    prepare(scratch);
+    this->VisitLayers(r[4], r[5], scratch.data() + ghosts * layer + surplus, visit);
+    return;
+  }
+  // Cells need each layer once; of nodes, the last of a part is the first of the next again, so
+  // that larger parts pay.
+  const std::size_t partBytes = of_.CellCentred ? 64 << 10 : 256 << 10;
+  const int extra = of_.CellCentred ? 0 : 1;
+  const int layers = static_cast<int>(std::max<std::size_t>(partBytes / sizeof(float) / layer, 1));
+  for (int begin = r[4]; begin < r[5]; begin += layers)
+  {
+    const int end = std::min(begin + layers, r[5]);
+    scratch.resize((end - begin + extra) * layer);
+    file_->ReadPart(frame, (begin - r[4] + ghosts) * layer, scratch);
+    prepare(scratch);
+    this->VisitLayers(begin, end, scratch.data() + surplus, visit);
+  }
+  file_->CloseParts();
+}
+
+//------------------------------------------------------------------------------------------------
+template <class Visit>
+void VolumeField::VisitLayers(int begin, int end, const float* first, Visit&& visit) const
+{
+  const IndexRange& r = of_.Range;
+  const auto nx = static_cast<std::size_t>(mesh_.Cells(0));
+  const auto ny = static_cast<std::size_t>(mesh_.Cells(1));
+  const auto stride = static_cast<std::size_t>(file_->StoredDimensions()[0]);
+  const std::size_t layer = stride * static_cast<std::size_t>(file_->StoredDimensions()[1]);
+  const auto length = static_cast<std::size_t>(r[1] - r[0]);
+  // Of nodes: sums over two layers, of a row of nodes and of the next one, and the cells' means.
+  std::vector<float> low(length + 1);
+  std::vector<float> high(length + 1);
+  std::vector<float> means(length);
+  for (int k = begin; k < end; ++k)
+  {
+    const float* row = first + (k - begin) * layer;
+    const auto addLayers = [&row, layer](std::vector<float>& sums)
+    { std::transform(row, row + sums.size(), row + layer, sums.begin(), std::plus<>()); };
+    if (!of_.CellCentred)
+    {
+      addLayers(high);
+    }
     for (int j = r[2]; j < r[3]; ++j)
     {
-      const float* const a = first + (k - r[4]) * layer + (j - r[2]) * stride;
       const std::size_t cell = (static_cast<std::size_t>(k) * ny + j) * nx + r[0];
       if (of_.CellCentred)
       {
-        visit(cell, j, k, std::span<const float>(a, length));
+        visit(cell, j, k, std::span<const float>(row, length));
+        row += stride;
+        continue;
       }
-      else
+      row += stride;
+      low.swap(high);
+      addLayers(high);
+      for (std::size_t i = 0; i < length; ++i)
       {
-        const float* const b = a + stride;
-        const float* const c = a + layer;
-        const float* const d = c + stride;
-        for (std::size_t i = 0; i <= length; ++i)
-        {
-          row[i] = 0.125F * (a[i] + b[i] + c[i] + d[i]);
-        }
-        for (std::size_t i = 0; i < length; ++i)
-        {
-          row[i] += row[i + 1];
-        }
-        visit(cell, j, k, std::span<const float>(row.data(), length));
+        means[i] = 0.125F * ((low[i] + low[i + 1]) + (high[i] + high[i + 1]));
       }
+      visit(cell, j, k, std::span<const float>(means));
     }
   }
 }

@@ -27,7 +27,7 @@ struct Settings
   int Threads = 0;
   /// Tolerance of the solutions that others are measured against.
   double ReferenceTolerance = 0.001;
-  /// A growth curve ends after the first point that takes longer [s].
+  /// A growth curve ends after the first point that takes longer [processor seconds].
   double Limit = 60.0;
   /// Instant of the hall's fire [s].
   double Time = 600.0;

@@ -92,7 +92,7 @@ void RunGrowth(const Settings& settings)
       table.Row({name, Number(value), Number(solution.SetUpSeconds), Number(solution.FieldSeconds),
         Number(solution.FieldProcessors), Number(ViewSeconds(solution, 20, settings.Threads)),
         Number(PeakMemory())});
-      if (solution.SetUpSeconds + solution.FieldSeconds > settings.Limit)
+      if (solution.SetUpProcessors + solution.FieldProcessors > settings.Limit)
       {
         break;
       }

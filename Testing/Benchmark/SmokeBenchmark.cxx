@@ -82,7 +82,7 @@ void PrintUsage()
     "  --samples 1,4,16,64               samples a pixel of the reference integrator\n"
     "  --reference-tolerance 0.001       of what errors are measured against; 0: no errors (hall)\n"
     "  --threads 0                       of the solver; 0: all\n"
-    "  --limit 60                        a growth curve ends after a point of so many seconds\n"
+    "  --limit 60                        a growth curve ends after so many processor seconds\n"
     "  --time 600                        second of the hall's fire\n"
     "  --out .                           folder for the CSV files\n");
 }

@@ -32,9 +32,9 @@ def plot_tunnel(folder):
             axes, ("pixel_error", "veil_error"), ("all pixels", "dark bars (veil)")):
         for method, marker in (("solver", "o"), ("reference integrator", "s")):
             chosen = [row for row in rows if row["method"] == method]
-            axis.loglog(numbers(chosen, "total_s"), numbers(chosen, column), marker + "-",
+            axis.loglog(numbers(chosen, "processor_s"), numbers(chosen, column), marker + "-",
                         label=method)
-        axis.set(title="Tunnel, 64 x 64, " + title, xlabel="seconds",
+        axis.set(title="Tunnel, 64 x 64, " + title, xlabel="processor seconds",
                  ylabel="relative error (rms)")
         axis.grid(True, which="both", alpha=0.3)
         axis.legend()
@@ -51,9 +51,9 @@ def plot_halls(folder):
     figure, axis = pyplot.subplots(figsize=(6, 4))
     for name, rows in maps.items():
         if rows:
-            axis.loglog(numbers(rows, "total_s"), numbers(rows, "contrast_error"), "o-",
+            axis.loglog(numbers(rows, "processor_s"), numbers(rows, "contrast_error"), "o-",
                         label=titles[name])
-    axis.set(title="Hall with eight signs", xlabel="seconds (light field and map)",
+    axis.set(title="Hall with eight signs", xlabel="processor seconds (light field and map)",
              ylabel="error of contrast (rms)")
     axis.grid(True, which="both", alpha=0.3)
     axis.legend()
@@ -71,7 +71,7 @@ def plot_growth(folder):
         chosen = [row for row in rows if row["curve"] == name]
         values = numbers(chosen, "value")
         if name != "views":
-            axis.plot(values, numbers(chosen, "field_s"), "o-", label="light field")
+            axis.plot(values, numbers(chosen, "field_processor_s"), "o-", label="light field")
             axis.plot(values, numbers(chosen, "setup_s"), "^-", label="set-up")
         axis.plot(values, numbers(chosen, "view_s"), "s-",
                   label="all views" if name == "views" else "a view of the sign")

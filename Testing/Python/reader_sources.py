@@ -14,7 +14,7 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import numpy as np
-from paraview import simple
+from paraview import servermanager, simple
 from reader_common import Messages, Smoke, close, equal, load_plugin, reader, true
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -267,7 +267,10 @@ with tempfile.TemporaryDirectory() as temporary:
     with open(growing, "wb") as file:
         file.write(whole)
     shutil.copy(os.path.join(folder, "room_2_2.sf"), temporary)
-    live.Refresh()
+    # What "Reload Files" does; live.Refresh() does it in scripts.
+    helper = servermanager.vtkSMReaderReloadHelper()
+    true(helper.SupportsReload(live.SMProxy), "the reader can be reloaded")
+    true(helper.ReloadFiles(live.SMProxy), "the reader reloads")
     live.UpdatePipelineInformation()
     equal(list(live.TimestepValues), steps, "frames after the refresh")
     close(Smoke(live, 30.0).field("Time"), 30.0, 0.0, "the last frame after the refresh")

@@ -151,6 +151,8 @@ TEST(CadTableErrors, OfJsonNameTheLine)
   EXPECT_THAT(json("[{\"name\": \"A\", \"color\": 1}]"), HasSubstr("'color' is not known"));
   EXPECT_THAT(json("{\"name\": \"A\"}"), HasSubstr("array of objects"));
   EXPECT_THAT(json("[3]"), HasSubstr("array of objects"));
+  EXPECT_THAT(json("[\n{\"name\": \"A\", \"sign\": 1e999}\n]"),
+    AllOf(HasSubstr("line 2"), HasSubstr("not JSON")));
   EXPECT_THAT(json("[]"), HasSubstr("no row"));
   EXPECT_THAT(json(std::string(100000, '[')), HasSubstr("not JSON"));
 }

@@ -121,6 +121,35 @@ TEST(Emitters, LightsAndTheirGroups)
   }
 }
 
+// A checkerboard of many cells lights as a lattice with the same intensity, in the same rectangle.
+TEST(Emitters, PatternsOfManyCellsAreCoarsened)
+{
+  std::vector<EmitterCell> cells;
+  constexpr int columns = 30;
+  constexpr int rows = 14;
+  double intensity = 0.0;
+  for (int i = 0; i < columns; ++i)
+  {
+    for (int j = 0; j < rows; ++j)
+    {
+      const double luminance = (i + j) % 2 == 0 ? 3.0 + i : 0.0;
+      cells.push_back(Rectangle(0.1 * i, 0.1 * i + 0.1, 0.1 * j, 0.1 * j + 0.1, luminance, 0));
+      intensity += 0.01 * luminance;
+    }
+  }
+  const EmitterSet set(cells, 1, AnySize);
+  ASSERT_EQ(set.Lights().size(), 1U);
+  EXPECT_LT(set.Groups().size(), 80U);
+  const LightGroup& root = set.Groups()[static_cast<std::size_t>(set.Lights()[0])];
+  double sum = 0.0;
+  double area = 0.0;
+  AddLeaves(set, set.Lights()[0], root, sum, area);
+  EXPECT_NEAR(sum, intensity, 1e-9);
+  EXPECT_NEAR(root.Intensity[0], intensity, 1e-9);
+  EXPECT_NEAR(area, 3.0 * 1.4, 1e-9);
+  EXPECT_NEAR(set.Flux(0), Pi * intensity, 1e-9);
+}
+
 // Large lights are left to the lines: a sign counts with all its lit cells.
 TEST(Emitters, LargeLightsAreLeftToLines)
 {

@@ -192,4 +192,67 @@ TEST(Geometry, WatertightAtSharedEdges)
   }
 }
 
+// Triangles that are there twice, either way round, are crossed once.
+TEST(Geometry, DuplicatesAreCrossedOnce)
+{
+  SurfaceMesh mesh = Square(0.0);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    mesh.Triangles.push_back(mesh.Triangles[i]);
+    mesh.TriangleCell.push_back(0);
+  }
+  const Geometry shapes(mesh, {});
+  std::vector<Crossing> crossings;
+  for (const Vec3& origin : {Vec3(0.3, 0.1, 2), Vec3(0, 0, 2), Vec3(0.5, 0.5, 2)})
+  {
+    // Through the middle of a triangle, and through the diagonal that two of them share.
+    shapes.Cross(origin, {0, 0, -1}, 0.0, Far, crossings);
+    ASSERT_EQ(crossings.size(), 1U);
+    EXPECT_NEAR(crossings[0].Arrive.Distance, 2.0, 1e-9);
+    EXPECT_EQ(crossings[0].Arrive.Side, 0);
+    EXPECT_EQ(crossings[0].Leave.Side, 1);
+  }
+}
+
+// A sliver a nanometre wide between two squares neither hides them nor adds a hit that is not
+// there.
+TEST(Geometry, SliversDoNoHarm)
+{
+  SurfaceMesh mesh = Square(0.0);
+  const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+  mesh.Points.insert(mesh.Points.end(), {{-1, 0.2, 1}, {1, 0.2, 1}, {1, 0.2 + 1e-9, 1}});
+  mesh.Triangles.push_back({first, first + 1, first + 2});
+  mesh.TriangleCell.push_back(0);
+  const Geometry shapes(mesh, {});
+  for (const double y : {-0.5, 0.1999, 0.2001, 0.7})
+  {
+    const Hit hit = shapes.Intersect({0.1, y, 2}, {0, 0, -1}, 0.0, Far);
+    ASSERT_TRUE(hit.Found());
+    EXPECT_DOUBLE_EQ(hit.Distance, 2.0);
+    EXPECT_EQ(shapes.Normal(hit), Vec3(0, 0, 1));
+  }
+}
+
+// Sight and occlusion a million metres from the origin, where floats resolve six centimetres.
+TEST(Geometry, SightFarFromTheOrigin)
+{
+  const Vec3 offset(1e6, -1e6, 1e6);
+  const Geometry shapes(Square(0.0, 1.0, true, offset), {});
+  EXPECT_FALSE(shapes.Visible(offset + Vec3(0.3, 0.2, -0.01), offset + Vec3(0.3, 0.2, 0.01)));
+  EXPECT_TRUE(shapes.Visible(offset + Vec3(0.3, 0.2, 0.01), offset + Vec3(-0.9, 0.2, 0.02)));
+  EXPECT_TRUE(shapes.Visible(offset + Vec3(1.01, 0.2, -1), offset + Vec3(1.01, 0.2, 1)));
+}
+
+// Rays in the plane of a surface pass along it; what stands across is found.
+TEST(Geometry, RaysInThePlaneOfASurface)
+{
+  SurfaceMesh mesh = Square(0.0);
+  AddQuad(mesh, {0.5, -1, -1}, {0.5, 1, -1}, {0.5, 1, 1}, {0.5, -1, 1});
+  const Geometry shapes(mesh, {});
+  const Hit hit = shapes.Intersect({-3, 0.1, 0}, {1, 0, 0}, 0.0, Far);
+  ASSERT_TRUE(hit.Found());
+  EXPECT_NEAR(hit.Distance, 3.5, 1e-6);
+  EXPECT_EQ(shapes.Cell(hit), 1U);
+}
+
 } // namespace
