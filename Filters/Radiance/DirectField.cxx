@@ -16,10 +16,11 @@ namespace smokevis
 namespace
 {
 
-/// A light counts as near to a cell within so many cell edges of the cell.
-constexpr double NearEdges = 4.0;
+/// A light counts as near to a cell within so many cell edges of the cell. Not a whole number, so
+/// that no distance of a regular scene is at the limit, where rounding would decide.
+constexpr double NearEdges = 4.01;
 /// Closer than this, a cell's mean is not found from a few points.
-constexpr double CloseEdges = 2.0;
+constexpr double CloseEdges = 2.01;
 /// Sharpest law of emission of lights whose fluence is kept on lattices.
 constexpr double SmoothestLaw = 2.0;
 /// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
@@ -195,9 +196,10 @@ void DirectField::FindNearCells()
   this->NearFields_.resize(reach.size());
   for (std::size_t light = 0; light < reach.size(); ++light)
   {
-    // Light that changes quickly with the angle would need finer lattices.
+    // Light that changes quickly with the angle, as measured light may near the plate's plane,
+    // would need finer lattices.
     const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-    if (reach[light] > 0.0 && root.Law.Sharpness() <= SmoothestLaw)
+    if (reach[light] > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
       this->NearFields_[light] =
         std::make_unique<NearField>(this->Scene_, this->Direct_, light, reach[light]);

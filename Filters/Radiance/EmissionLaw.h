@@ -39,6 +39,8 @@ public:
 
   /// Luminous flux of a unit area of unit luminance [lm]: 2 pi / (n + 2), or pi with a table.
   double UnitFlux() const;
+  /// Whether a measured table gives the law.
+  bool Measured() const { return this->Table_ != nullptr; }
   /// How fast the light changes with the angle, at least 1 [1/rad].
   double Sharpness() const;
   /// Whether the light of two plates with one normal can be added up.

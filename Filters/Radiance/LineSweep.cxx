@@ -21,7 +21,7 @@ constexpr std::size_t FewestLines = 512;
 constexpr double MostLinesForPatches = 20000.0;
 /// Optical depth across a cell below which its source is flat enough, that of the pieces that
 /// thicker ones are cut into, and most pieces of one.
-constexpr double FlatDepth = 0.4;
+constexpr double FlatDepth = 0.41;
 constexpr double PieceDepth = 0.5;
 constexpr int MostParts = 8;
 
@@ -113,10 +113,11 @@ LineSweep::LineSweep(
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
-    const bool near = direct.Near(static_cast<std::int64_t>(cell));
-    const bool thick = this->Extinction_[cell] * std::max({size.x, size.y, size.z}) > FlatDepth;
-    this->Varies_[cell] = this->DirectFluence_[cell] > 0.0F && this->Extinction_[cell] > 0.0F &&
-                          (near ? thick || direct.Close(static_cast<std::int64_t>(cell)) : thick);
+    // In the thickest cells pieces would not follow the light; means keep the balance of power.
+    const double depth = this->Extinction_[cell] * std::max({size.x, size.y, size.z});
+    this->Varies_[cell] = this->DirectFluence_[cell] > 0.0F && depth > 0.0 &&
+                          depth < MostParts * PieceDepth &&
+                          (depth > FlatDepth || direct.Close(static_cast<std::int64_t>(cell)));
     volume += own;
     boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   }

@@ -19,6 +19,9 @@ constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
 constexpr double Lift = 1e-4;
 
+/// Counts that come out whole but for rounding are whole.
+constexpr double Rounding = 1e-4;
+
 /// Shortest edge of a group's leaves [m].
 double FinestEdge(const EmitterSet& lights, const LightGroup& group)
 {
@@ -97,7 +100,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
-      const int steps = static_cast<int>(std::ceil(2.0 * half / (distance / Steps) - 1e-9));
+      const int steps = static_cast<int>(std::ceil(2.0 * half / (distance / Steps) - Rounding));
       level->Count[axis] = steps + 1;
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;
@@ -110,7 +113,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
       value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
     }
     this->Levels_.push_back(std::move(level));
-    if (distance >= reach)
+    if (distance >= reach * (1.0 - Rounding))
     {
       break;
     }

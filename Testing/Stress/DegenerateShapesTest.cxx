@@ -208,7 +208,7 @@ TEST(DegenerateShapes, MeshesInPieces)
 }
 
 // A mesh inside another with cells of an eighth of the size.
-TEST(DegenerateShapes, DISABLED_NestedMeshes)
+TEST(DegenerateShapes, NestedMeshes)
 {
   report::Head("Smoke in nested meshes");
   SceneDescription nested = Room();
