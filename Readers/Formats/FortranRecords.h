@@ -140,6 +140,9 @@ private:
     stream_.clear();
     if (!stream_.is_open())
     {
+      // Reads are few words here and whole frames there: a buffer would only fetch what is not
+      // wanted.
+      stream_.rdbuf()->pubsetbuf(nullptr, 0);
       stream_.open(path_, std::ios::binary);
       if (!stream_)
       {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -105,30 +106,36 @@ void VolumeField::VisitLayers(int begin, int end, const float* first, Visit&& vi
   const auto stride = static_cast<std::size_t>(file_->StoredDimensions()[0]);
   const std::size_t layer = stride * static_cast<std::size_t>(file_->StoredDimensions()[1]);
   const auto length = static_cast<std::size_t>(r[1] - r[0]);
-  std::vector<float> row(length + 1);
+  // Of nodes: sums over two layers, of a row of nodes and of the next one, and the cells' means.
+  std::vector<float> low(length + 1);
+  std::vector<float> high(length + 1);
+  std::vector<float> means(length);
   for (int k = begin; k < end; ++k)
   {
+    const float* row = first + (k - begin) * layer;
+    const auto addLayers = [&row, layer](std::vector<float>& sums)
+    { std::transform(row, row + sums.size(), row + layer, sums.begin(), std::plus<>()); };
+    if (!of_.CellCentred)
+    {
+      addLayers(high);
+    }
     for (int j = r[2]; j < r[3]; ++j)
     {
-      const float* const a = first + (k - begin) * layer + (j - r[2]) * stride;
       const std::size_t cell = (static_cast<std::size_t>(k) * ny + j) * nx + r[0];
       if (of_.CellCentred)
       {
-        visit(cell, j, k, std::span<const float>(a, length));
+        visit(cell, j, k, std::span<const float>(row, length));
+        row += stride;
         continue;
       }
-      const float* const b = a + stride;
-      const float* const c = a + layer;
-      const float* const d = c + stride;
-      for (std::size_t i = 0; i <= length; ++i)
-      {
-        row[i] = 0.125F * (a[i] + b[i] + c[i] + d[i]);
-      }
+      row += stride;
+      low.swap(high);
+      addLayers(high);
       for (std::size_t i = 0; i < length; ++i)
       {
-        row[i] += row[i + 1];
+        means[i] = 0.125F * ((low[i] + low[i + 1]) + (high[i] + high[i + 1]));
       }
-      visit(cell, j, k, std::span<const float>(row.data(), length));
+      visit(cell, j, k, std::span<const float>(means));
     }
   }
 }

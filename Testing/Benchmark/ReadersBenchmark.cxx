@@ -35,7 +35,7 @@ using smokevis::TimeInterpolation;
 
 constexpr int Meshes = 25;
 constexpr std::array<int, 3> Cells{100, 80, 50};
-constexpr int Frames = 3;
+constexpr int Frames = 3; // of 10 million cells each
 constexpr std::size_t MeshCells = std::size_t{100} * 80 * 50;
 
 // Seconds that this thread computed, in the kernel or not: what a busy machine changes least.
