@@ -27,7 +27,7 @@ void CheckDeep(const std::string& what, int cut, double tolerance)
     }
     SceneDescription scene =
       scenes::Tunnel(table.Number(row, "extinction"), table.Number(row, "albedo"));
-    // Cells of at most 0.15 mean free paths.
+    // Cells of at most 0.3 mean free paths over the number of cuts.
     scene.Grids = {scenes::UniformSmoke(
       Vec3(0.0), {4, 1, 1}, {40 * cut, 10 * cut, 10 * cut}, table.Number(row, "extinction"))};
     const Solved solved(scene, tolerance);
