@@ -42,7 +42,7 @@ double VarianceOf(const std::vector<double>& values, double mean)
 BlockMeans::BlockMeans(
   const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
 {
-  // Light counts by the power that is sent on of it [lm].
+  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little.
   const Medium& smoke = scene.Smoke();
   std::vector<float> weights(field.Cells);
   for (std::size_t cell = 0; cell < field.Cells; ++cell)
@@ -57,8 +57,8 @@ BlockMeans::BlockMeans(
   weights.resize(2 * field.Patches);
   for (std::size_t side = 0; side < weights.size(); ++side)
   {
-    weights[side] =
-      static_cast<float>(scene.PatchArea(side / 2) * scene.PatchReflectance(side / 2)[band]);
+    weights[side] = static_cast<float>(
+      scene.PatchArea(side / 2) * std::max(DarkShare, scene.PatchReflectance(side / 2)[band]));
   }
   this->Add(batches, &BatchState::IlluminanceSum,
     field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), weights);
