@@ -1,0 +1,196 @@
+// Direct fluence near a light: lattices, cell means and pieces of rays, against plain sums over the
+// plate.
+#include "DirectField.h"
+#include "LightField.h"
+#include "Scene.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr double Extinction = 2.0;
+
+/// A sign of five lit bars, 0.5 m x 0.25 m, at the end of a box of even smoke.
+SceneDescription Barred()
+{
+  SceneDescription scene;
+  scene.Albedo = 0.5;
+  SmokeGrid grid;
+  grid.Name = "even";
+  for (int i = 0; i <= 12; ++i)
+  {
+    grid.Nodes[0].push_back(2.0 * i / 12);
+    grid.Nodes[1].push_back(2.0 * i / 12);
+    grid.Nodes[2].push_back(2.0 * i / 12);
+  }
+  grid.Extinction.assign(12 * 12 * 12, static_cast<float>(Extinction));
+  scene.Grids = {grid};
+  for (int bar = 0; bar < 9; bar += 2)
+  {
+    const double low = 0.75 + 0.5 * bar / 9;
+    const double high = 0.75 + 0.5 * (bar + 1) / 9;
+    EmitterCell cell;
+    cell.Vertices = {{2, low, 0.9}, {2, low, 1.15}, {2, high, 1.15}, {2, high, 0.9}};
+    cell.Luminance = {100, 100, 100};
+    cell.SignId = 0;
+    scene.Emitters.push_back(cell);
+  }
+  return scene;
+}
+
+/// Integral of luminance times transmittance over the solid angle, by the midpoint rule.
+double SumOverPlate(const SceneDescription& scene, const Vec3& point)
+{
+  constexpr int Steps = 120;
+  double sum = 0.0;
+  for (const EmitterCell& cell : scene.Emitters)
+  {
+    const Vec3 u = cell.Vertices[1] - cell.Vertices[0];
+    const Vec3 v = cell.Vertices[3] - cell.Vertices[0];
+    const double area = glm::length(glm::cross(u, v)) / (Steps * Steps);
+    for (int i = 0; i < Steps * Steps; ++i)
+    {
+      const Vec3 to =
+        cell.Vertices[0] + (i % Steps + 0.5) / Steps * u + (i / Steps + 0.5) / Steps * v - point;
+      const double distance = glm::length(to);
+      sum += 100.0 * area * std::max(0.0, to.x / distance) / (distance * distance) *
+             std::exp(-Extinction * distance);
+    }
+  }
+  return sum;
+}
+
+class DirectFieldTest : public testing::Test
+{
+protected:
+  DirectFieldTest() : Description(Barred()), TheScene(Description)
+  {
+    LightFieldOptions options;
+    options.Tolerance = 0.5;
+    Progress progress;
+    this->Field = SolveLightField(this->TheScene, options, progress);
+  }
+
+  SceneDescription Description;
+  Scene TheScene;
+  LightField Field;
+};
+
+// Interpolation between the lattice's nodes: 0.5 %, a quarter of what the veil's promise allows.
+TEST_F(DirectFieldTest, LatticeFollowsThePattern)
+{
+  const DirectLight direct(this->TheScene);
+  const NearField near(this->TheScene, direct, 0, 1.0);
+  for (const double height : {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
+  {
+    for (const double y : {0.78, 1.0, 1.13, 1.4})
+    {
+      const Vec3 point(2.0 - height, y, 1.05);
+      const double expected = SumOverPlate(this->Description, point);
+      EXPECT_NEAR(near.Fluence(point, 0) / expected, 1.0, 0.005) << height << ' ' << y;
+    }
+  }
+  EXPECT_EQ(near.Fluence(Vec3(2.5, 1, 1), 0), 0.0);
+}
+
+// Cell means against 10 x 10 x 10 points a cell, whose own error is some 0.1 % beside the plate.
+TEST_F(DirectFieldTest, CellMeans)
+{
+  const DirectLight direct(this->TheScene);
+  for (const std::array<int, 3> place :
+    {std::array<int, 3>{11, 6, 6}, {10, 5, 6}, {8, 8, 4}, {4, 6, 6}, {0, 0, 0}})
+  {
+    const std::int64_t cell = place[0] + 12 * (place[1] + 12 * place[2]);
+    const Vec3 centre = this->TheScene.Smoke().CellCentre(cell);
+    const Vec3 size = this->TheScene.Smoke().CellSize(cell);
+    double sum = 0.0;
+    for (int i = 0; i < 1000; ++i)
+    {
+      const Vec3 share(i % 10 / 10.0 - 0.45, i / 10 % 10 / 10.0 - 0.45, i / 100 / 10.0 - 0.45);
+      sum += direct.Fluence(0, centre + share * size, true)[0] / 1000.0;
+    }
+    EXPECT_NEAR(this->Field.DirectFluence[cell] / sum, 1.0, 0.003) << cell;
+  }
+}
+
+// What a piece of a ray into the plate scatters back, against 2000 points along it.
+TEST_F(DirectFieldTest, VeilBeforeThePlate)
+{
+  const DirectField inside(this->TheScene, this->Field);
+  const DirectLight direct(this->TheScene);
+  const Vec3 origin(1.5, 1.02, 1.0);
+  const Vec3 direction = glm::normalize(Vec3(1.0, 0.03, 0.05));
+  std::vector<Segment> pieces;
+  this->TheScene.Smoke().Walk(origin, direction, 0.0, 0.49, pieces);
+  ASSERT_FALSE(pieces.empty());
+  for (const Segment& piece : pieces)
+  {
+    ASSERT_TRUE(inside.Near(piece.Cell));
+    constexpr int Steps = 2000;
+    const double step = (piece.End - piece.Begin) / Steps;
+    double veil = 0.0;
+    double mean = 0.0;
+    for (int i = 0; i < Steps; ++i)
+    {
+      const double way = (i + 0.5) * step;
+      const double fluence = direct.Fluence(0, origin + (piece.Begin + way) * direction, true)[0];
+      veil += fluence * Extinction * std::exp(-Extinction * way) * step;
+      mean += fluence / Steps;
+    }
+    veil *= 0.5 / (4.0 * 3.141592653589793);
+    EXPECT_NEAR(
+      inside.NearVeil(piece.Cell, origin, direction, piece.Begin, piece.End, Extinction, 0) / veil,
+      1.0, 0.01);
+    EXPECT_NEAR(
+      inside.NearMean(piece.Cell, origin, direction, piece.Begin, piece.End, 0) / mean, 1.0, 0.02);
+  }
+}
+
+// The only light is near: nothing is left for the smooth part, in any cell around it.
+TEST_F(DirectFieldTest, NothingIsCountedTwice)
+{
+  const DirectField inside(this->TheScene, this->Field);
+  for (std::int64_t cell = 0; cell < static_cast<std::int64_t>(this->Field.Cells); ++cell)
+  {
+    if (inside.Near(cell))
+    {
+      EXPECT_EQ(inside.Smooth(cell, this->TheScene.Smoke().CellCentre(cell), 0), 0.0);
+    }
+  }
+}
+
+TEST(Blocks, HoldEveryCellOnce)
+{
+  SmokeGrid grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int node = 0; node <= 9 + axis; ++node)
+    {
+      grid.Nodes[axis].push_back(node);
+    }
+  }
+  grid.Extinction.assign(9 * 10 * 11, 1.0F);
+  const Medium medium({grid});
+  std::vector<int> met(medium.Cells(), 0);
+  for (const Medium::Block& block : medium.Blocks(8))
+  {
+    for (int z = 0; z < block.Size[2]; ++z)
+    {
+      for (int y = 0; y < block.Size[1]; ++y)
+      {
+        for (int x = 0; x < block.Size[0]; ++x)
+        {
+          ++met[medium.Cell(block, {x, y, z})];
+        }
+      }
+    }
+  }
+  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
+}
+
+} // namespace
