@@ -41,6 +41,10 @@ public:
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
 
 private:
+  /// One way stands for all ways to a group of radius r at a distance d below this r/d; above it
+  /// each Gauss point of a leaf has its own.
+  static constexpr double PathRatio = 0.1;
+
   /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
   /// [1/m]: a polynomial through three by three of them.
   struct Ways

@@ -1,0 +1,377 @@
+// DirectLight's part for smoke cells: means over cells, and the ways that a block of them shares.
+#include "DirectLight.h"
+
+#include "GaussNodes.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Cells along the edges of the smallest block in which ways tell of each other, error of an
+/// optical depth that is told so, and where in the block it is measured.
+constexpr int SmallestBlock = 4;
+constexpr double WayTolerance = 0.004;
+constexpr std::array<std::array<double, 3>, 3> WayChecks = {
+  {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
+/// A box as large as this share of its distance to the light is split.
+constexpr double BoxRatio = 0.5;
+constexpr int BoxSplits = 3;
+/// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
+/// two along each edge follow an exponential over a depth x to x^4 / 4320, three go farther. Above
+/// the deepest nearly all light stays in the first part of the box.
+constexpr double FlatDepth = 0.25;
+constexpr double FlatRatio = 0.2;
+constexpr double TwoPointDepth = 1.2;
+constexpr double DeepestGauss = 4.0;
+
+/// Where a cell lies between the first and the last of its block, 0 to 1.
+Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
+{
+  Vec3 share(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    share[axis] =
+      block.Size[axis] > 1 ? static_cast<double>(place[axis]) / (block.Size[axis] - 1) : 0.0;
+  }
+  return share;
+}
+
+/// Value between those at the corners of a box, first axis fastest.
+double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
+{
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    sum += corners[corner] * (corner & 1 ? share.x : 1.0 - share.x) *
+           (corner & 2 ? share.y : 1.0 - share.y) * (corner & 4 ? share.z : 1.0 - share.z);
+  }
+  return sum;
+}
+
+/// Mean place of exp(-2 x t) over t in (-1/2, 1/2), times -2: coth x - 1 / x.
+double Langevin(double x)
+{
+  return std::abs(x) < 1e-3 ? x / 3.0 : 1.0 / std::tanh(x) - 1.0 / x;
+}
+
+/// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
+double MeanAttenuation(double x, double shift)
+{
+  const double size = std::abs(x);
+  const double logarithm =
+    size < 1e-3 ? size * size / 6.0 : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
+  return std::exp(logarithm - x * shift);
+}
+
+} // namespace
+
+bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
+  const Vec3 size = this->Scene_.Smoke().CellSize(cell);
+  // Slightly inside, since cells often end at walls.
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 shift(
+      corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
+    if (this->VisibleShare(root, centre + shift * size) < 1.0)
+    {
+      return false;
+    }
+  }
+  return this->VisibleShare(root, centre) == 1.0;
+}
+
+Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  const double distance = root.Distance(centre);
+  const bool splits =
+    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
+  return this->BoxFluence(
+    light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt);
+}
+
+double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Vec3 from = smoke.CellCentre(cell);
+  const double distance = glm::length(root.Centre - from);
+  return smoke.OpticalDepth(from, (root.Centre - from) / distance, 0.0, distance) / distance;
+}
+
+std::optional<std::array<double, 8>> DirectLight::BlockWays(
+  const LightGroup& root, const Medium::Block& block) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const auto cornerCell = [&](int corner)
+  {
+    return smoke.Cell(
+      block, {corner & 1 ? block.Size[0] - 1 : 0, corner & 2 ? block.Size[1] - 1 : 0,
+               corner & 4 ? block.Size[2] - 1 : 0});
+  };
+  const Vec3 low = smoke.CellCentre(cornerCell(0));
+  const Vec3 high = smoke.CellCentre(cornerCell(7));
+  const double distance =
+    glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
+  const Vec3 size = smoke.CellSize(cornerCell(0));
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
+      edge > 0.5 * BoxRatio * distance)
+  {
+    return std::nullopt;
+  }
+  std::array<double, 8> ways;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::int64_t cell = cornerCell(corner);
+    // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
+    if (smoke.Extinction(cell) == 0.0F && smoke.MaximumExtinction() > 0.0F)
+    {
+      return std::nullopt;
+    }
+    ways[corner] = this->WayExtinction(root, cell);
+  }
+  const double scale = this->Scene_.LargestScale();
+  for (const auto& share : WayChecks)
+  {
+    std::array<int, 3> place;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
+    }
+    const std::int64_t cell = smoke.Cell(block, place);
+    const double told = Trilinear(ways, BlockShare(block, place));
+    const double way = glm::length(root.Centre - smoke.CellCentre(cell));
+    if (std::abs(told - this->WayExtinction(root, cell)) * way * scale > WayTolerance)
+    {
+      return std::nullopt;
+    }
+  }
+  return ways;
+}
+
+std::size_t DirectLight::AddBlockFluence(
+  std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Medium& smoke = this->Scene_.Smoke();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
+  const auto ways = largest >= SmallestBlock ? this->BlockWays(root, block)
+                                             : std::optional<std::array<double, 8>>();
+  std::size_t told = 0;
+  if (!ways && largest > SmallestBlock)
+  {
+    const int half = (largest + 1) / 2;
+    for (int part = 0; part < 8; ++part)
+    {
+      Medium::Block child = block;
+      bool empty = false;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int first = part >> axis & 1 ? half : 0;
+        child.First[axis] += first;
+        child.Size[axis] = std::min(half, block.Size[axis] - first);
+        empty = empty || child.Size[axis] <= 0;
+      }
+      told += empty ? 0 : this->AddBlockFluence(light, child, sums);
+    }
+    return told;
+  }
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        const Spectrum value =
+          ways ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
+                   Trilinear(*ways, BlockShare(block, place)))
+               : this->CellFluence(light, cell);
+        told += ways ? 1 : 0;
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          sums[cell][band] += value[band];
+        }
+      }
+    }
+  }
+  return told;
+}
+
+Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size,
+  int splits, bool clear, std::optional<double> known) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 from = centre - root.Centre;
+  const double toCentre = glm::length(from);
+  const double distance = root.Distance(centre);
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  if (splits > 0 && edge > BoxRatio * distance)
+  {
+    // A box wholly behind the plate gets nothing.
+    if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
+    {
+      return {};
+    }
+    Spectrum sum{};
+    for (int part = 0; part < 8; ++part)
+    {
+      const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
+      const Spectrum value =
+        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear, known);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += 0.125 * value[band];
+      }
+    }
+    return sum;
+  }
+  Vec3 middle = centre;
+  Vec3 extent = size;
+  double lit = 1.0;
+  const bool close = edge > BoxRatio * distance;
+  if (close)
+  {
+    // As fine as boxes get. One that the plate's plane cuts is lit only in front of it.
+    const double height = glm::dot(from, root.Normal);
+    const double reach = 0.5 * glm::dot(glm::abs(root.Normal), size);
+    lit = std::clamp(0.5 * (height / reach + 1.0), 0.0, 1.0);
+    middle += (lit < 1.0 ? 0.5 * (reach - height) : 0.0) * root.Normal;
+    extent *= glm::mix(Vec3(1.0), Vec3(lit), glm::abs(root.Normal));
+  }
+  if (lit == 0.0)
+  {
+    return {};
+  }
+  const double depth = this->BoxDepth(centre, size);
+  if (!close && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
+  {
+    return this->GaussFluence(light, centre, size, clear, known);
+  }
+  // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own,
+  // where the rest of the light's variation is taken.
+  const Vec3 along = toCentre > root.Radius ? from / toCentre : root.Normal;
+  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+  const double extinction =
+    cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(0);
+  Vec3 place = middle;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
+  }
+  Spectrum value = known ? this->Fluence(light, Receiver{place, std::nullopt, clear, {}, known})
+                         : this->Fluence(light, place, clear);
+  double curvature = 1.0;
+  if (!close)
+  {
+    // What is left: second derivatives of cos / d^2.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      curvature += extent[axis] * extent[axis] * (9.0 * along[axis] * along[axis] - 3.0) /
+                   (24.0 * toCentre * toCentre);
+    }
+  }
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    const double k = extinction * this->Scene_.ExtinctionScale(band) /
+                     std::max(1e-300, this->Scene_.ExtinctionScale(0));
+    // Off its axis a way is longer: second derivatives of the distance.
+    double longer = 0.0;
+    for (int axis = 0; axis < 3 && !close; ++axis)
+    {
+      longer += extent[axis] * extent[axis] * (1.0 - along[axis] * along[axis]) / (24.0 * toCentre);
+    }
+    double factor = lit * curvature * std::exp(-k * longer);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double half = 0.5 * k * along[axis] * extent[axis];
+      const double first = 0.5 * extinction * along[axis] * extent[axis];
+      factor *= MeanAttenuation(half, Langevin(first));
+    }
+    value[band] *= factor;
+  }
+  return value;
+}
+
+double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
+{
+  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+  return cell < 0 ? 0.0
+                  : this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() *
+                      std::max({size.x, size.y, size.z});
+}
+
+Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size,
+  bool clear, std::optional<double> known) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const int order = this->BoxDepth(centre, size) < TwoPointDepth ? 2 : 3;
+  Receiver receiver{centre, std::nullopt, clear, {}, known};
+  const double toCentre = glm::length(root.Centre - centre);
+  double visible = 1.0;
+  double depth = 0.0;
+  const bool far = root.Radius < PathRatio * toCentre;
+  if (far)
+  {
+    // Ways to the places in the box differ from the one to its centre inside the box alone.
+    const Path path = this->SamplePath(root, receiver);
+    visible = path.Visible;
+    depth = path.MeanExtinction * toCentre;
+  }
+  if (visible == 0.0)
+  {
+    return {};
+  }
+  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+  const double extinction = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
+  Spectrum sum{};
+  for (int point = 0; point < order * order * order; ++point)
+  {
+    const std::array<int, 3> index = {
+      point % order, point / order % order, point / (order * order)};
+    double weight = visible;
+    Vec3 share;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
+      weight *= order == 2 ? 0.5 : Weights3[index[axis]];
+    }
+    const Vec3 place = centre + (share - 0.5) * size;
+    Spectrum value;
+    if (far)
+    {
+      const double distance = glm::length(root.Centre - place);
+      const double told = std::max(0.0, depth + extinction * (distance - toCentre)) / distance;
+      value = this->Fluence(light, Receiver{place, std::nullopt, true, {}, told});
+    }
+    else
+    {
+      value = this->Fluence(light, place, clear);
+    }
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] += weight * value[band];
+    }
+  }
+  return sum;
+}
+
+} // namespace smokevis
