@@ -226,6 +226,12 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
 {
   const std::string where = "sign table '" + fileName + "'";
   const Lines lines = ReadLines(fileName);
+  // VTK would take the mark of UTF-16 at its word and never come back.
+  if (lines.Text.find('\0') != std::string::npos || lines.Text.rfind("\xFF\xFE", 0) == 0 ||
+      lines.Text.rfind("\xFE\xFF", 0) == 0)
+  {
+    throw Error(where, "it is not plain text", "Save it as UTF-8, not as UTF-16");
+  }
   if (lines.Numbers.size() < 2)
   {
     throw Error(where, "it holds no sign", "Give a header line and a line for each sign");

@@ -40,13 +40,17 @@ std::string SmvFile::Resolve(const std::string& name) const
   const fs::path folder = fs::path(Path).parent_path();
   const fs::path asWritten = folder / name;
   std::error_code problem;
-  if (name.find('\\') == std::string::npos || fs::exists(asWritten, problem))
+  if (fs::exists(asWritten, problem))
   {
     return asWritten.string();
   }
   std::string slashes = name;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
-  return (folder / slashes).string();
+  const fs::path asSlashes = folder / slashes;
+  // A run that was moved since, perhaps from another machine, lies beside its index.
+  const fs::path beside = folder / fs::path(slashes).filename();
+  return (!fs::exists(asSlashes, problem) && fs::exists(beside, problem) ? beside : asSlashes)
+    .string();
 }
 
 //------------------------------------------------------------------------------------------------

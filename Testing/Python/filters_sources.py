@@ -190,6 +190,10 @@ def check_errors(folder, image, table):
         with open(path, "wb") as bad:
             bad.write(random.bytes(size))
         sign("bytes", "sign table", SignTable=path)
+    for encoding in ("utf-16", "utf-16-be"):
+        with open(path, "wb") as file:
+            file.write("cx,cy,cz\n1,2,3\n".encode(encoding))
+        sign(encoding, "not as UTF-16", SignTable=path)
 
     def lamp(what, part, **properties):
         check_error(what, simple.Luminaire(**properties), "vtkLuminaireSource", part)

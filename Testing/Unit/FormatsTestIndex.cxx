@@ -87,6 +87,12 @@ TEST(SmvFile, ReadsWhatTheRunSays)
   EXPECT_TRUE(index.Slices[0].CellCentred);
   EXPECT_TRUE(index.Slices[0].IsVolume());
   EXPECT_EQ(index.Resolve(index.Slices[0].File), folder.Path("sub/my slice.sf"));
+  // A run that was moved: absolute paths of another machine, files beside the index.
+  folder.Write("moved.sf", "");
+  for (const char* elsewhere : {"C:\\run\\moved.sf", "/home/else/moved.sf", "gone/moved.sf"})
+  {
+    EXPECT_EQ(index.Resolve(elsewhere), folder.Path("moved.sf")) << elsewhere;
+  }
   EXPECT_TRUE(index.Warnings.empty());
 
   const std::vector<SmvEvent>& events = index.Meshes[0].Obstructions[1].Events;
