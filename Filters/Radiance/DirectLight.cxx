@@ -25,6 +25,8 @@ constexpr double DeepestDepth = 100.0;
 constexpr double LeafRatio = 0.7;
 constexpr int LeafSplits = 4;
 constexpr double CutRatio = 0.02;
+/// Optical depth across a leaf below which its transmittance is known however close it is.
+constexpr double EvenDepth = 0.04;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
 /// Shadow rays along one edge of a light that is partly hidden.
@@ -295,7 +297,12 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   const bool cut = leaf && splits > 0 && receiver.Normal && ratio > CutRatio &&
                    std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
   Path own;
-  const bool last = leaf && splits == 0;
+  // Where nothing but thin smoke lies before a Lambertian leaf, its closed form needs no parts.
+  const bool even =
+    leaf && receiver.Clear && !receiver.Normal && group.Law == EmissionLaw() &&
+    this->Scene_.Smoke().MaximumExtinction() * this->Scene_.LargestScale() * group.Radius <
+      EvenDepth;
+  const bool last = leaf && (splits == 0 || even);
   if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
   {
     own = this->SamplePath(group, receiver);
