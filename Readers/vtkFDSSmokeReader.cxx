@@ -9,6 +9,8 @@
 #include "Errors.h"
 #include "ExtinctionSource.h"
 #include "FlameSource.h"
+#include "KeptOutput.h"
+#include "PipelineProgress.h"
 #include "SmvFile.h"
 
 #include "vtkDemandDrivenPipeline.h"
@@ -122,6 +124,15 @@ struct vtkFDSSmokeReader::vtkInternals
   std::vector<bool> GeometryChanges;
   bool GeometryMoves = false;
   double GeometryThreshold = 0.0;
+  smokevis::KeptOutput Kept;
+
+  // Forgets the run, but not what is shown of it.
+  void Reset()
+  {
+    vtkInternals fresh;
+    fresh.Kept = std::move(this->Kept);
+    *this = std::move(fresh);
+  }
 };
 
 //------------------------------------------------------------------------------------------------
@@ -184,9 +195,17 @@ int vtkFDSSmokeReader::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------------------------
+int vtkFDSSmokeReader::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Internals->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkFDSSmokeReader::Refresh()
 {
-  *this->Internals = vtkInternals();
+  this->Internals->Reset();
   this->Modified();
 }
 
@@ -208,7 +227,7 @@ void vtkFDSSmokeReader::LoadIndex()
   {
     return;
   }
-  own = vtkInternals();
+  own.Reset();
   own.Index = std::make_unique<smokevis::SmvFile>(this->FileName);
   own.Loaded = key;
   own.Slices = std::make_unique<smokevis::FDSPlaneSlices>(*own.Index);
@@ -323,11 +342,25 @@ int vtkFDSSmokeReader::RequestData(
       if (wanted < 0 || wanted == port)
       {
         this->ReadPort(port, outputVector->GetInformationObject(port));
+        own.Kept.Keep(outputVector, port);
       }
     }
   }
   catch (const std::exception& error)
   {
+    smokevis::KeptOutput& kept = this->Internals->Kept;
+    if (this->GetAbortOutput())
+    {
+      for (int port = 0; port < NumberOfPorts; ++port)
+      {
+        if (wanted < 0 || wanted == port)
+        {
+          kept.Restore(this, outputVector, port);
+        }
+      }
+      return 1;
+    }
+    kept.Clear();
     vtkErrorMacro(<< error.what());
     return 0;
   }
@@ -392,18 +425,14 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   Outcome outcome = Outcome::Good;
   try
   {
-    meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(),
-      [this](double fraction)
-      {
-        this->UpdateProgress(fraction);
-        return !this->CheckAbort();
-      });
-    outcome = meshes.empty() && pieces.First() < pieces.End() ? Outcome::Aborted : Outcome::Good;
+    smokevis::RunWithProgress(this, 0.0, 0.9,
+      [&](smokevis::Progress& progress)
+      { meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(), progress); });
   }
   catch (const std::exception& error)
   {
     problem = error.what();
-    outcome = Outcome::Failed;
+    outcome = this->GetAbortOutput() ? Outcome::Aborted : Outcome::Failed;
   }
   // All processes go on, or none.
   const Outcome all = pieces.Agree(outcome);
@@ -415,7 +444,9 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   }
   if (all == Outcome::Aborted)
   {
-    return;
+    // Perhaps by another process only.
+    this->SetAbortOutput(true);
+    throw smokevis::Error("FDS reader", "reading was stopped", "Update again to have it done");
   }
 
   const std::size_t count = own.Index->Meshes.size();
