@@ -230,6 +230,7 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   output->GetPointData()->SetActiveScalars("Visibility");
   output->GetFieldData()->AddArray(ids);
   smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
   smokevis::AddWorkReport(*output, map.Report);
 }
 

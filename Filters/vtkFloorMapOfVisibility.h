@@ -17,8 +17,8 @@
  *   sign;
  * - `Status`, int: SEEN, BELOW_THRESHOLD, NO_SIGN_IN_VIEW, INSIDE_SOLID.
  *
- * Field data: `SignIds` and `SignNames` in the order of the components, and what was done and left
- * out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ * Field data: `SignIds` and `SignNames` in the order of the components, `ContrastThreshold`, and
+ * what was done and left out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
  */
 #ifndef vtkFloorMapOfVisibility_h
 #define vtkFloorMapOfVisibility_h
