@@ -5,8 +5,9 @@
 #include "CadPolyData.h"
 #include "Errors.h"
 #include "FiniteProperty.h"
+#include "KeptOutput.h"
 #include "MaterialTable.h"
-#include "Progress.h"
+#include "PipelineProgress.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -33,25 +34,6 @@ enum Port
 // Most names that a message lists.
 constexpr std::size_t MostListed = 10;
 
-/// Reports reading as most of the work of an algorithm.
-class ReadingProgress : public smokevis::Progress
-{
-public:
-  explicit ReadingProgress(vtkAlgorithm* algorithm) : Algorithm(algorithm) {}
-
-  void Report(double fraction) override
-  {
-    this->Algorithm->UpdateProgress(0.9 * fraction);
-    if (this->Algorithm->CheckAbort())
-    {
-      this->Stop();
-    }
-  }
-
-private:
-  vtkAlgorithm* Algorithm;
-};
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -62,6 +44,7 @@ struct vtkCADReader::vtkInternals
   std::string ReadName;
   std::filesystem::file_time_type ReadStamp;
   smokevis::CadOptions ReadOptions;
+  smokevis::KeptOutput Kept;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -103,6 +86,14 @@ void vtkCADReader::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------------------------
+int vtkCADReader::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Internals->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkCADReader::LoadModel()
 {
   if (!this->FileName || !*this->FileName)
@@ -124,10 +115,11 @@ void vtkCADReader::LoadModel()
   {
     return;
   }
-  own = vtkInternals();
-  ReadingProgress progress(this);
-  auto model =
-    std::make_unique<smokevis::CadModel>(smokevis::ReadCadFile(this->FileName, options, progress));
+  own.Model.reset();
+  auto model = std::make_unique<smokevis::CadModel>();
+  smokevis::RunWithProgress(this, 0.0, 0.9,
+    [&](smokevis::Progress& progress)
+    { *model = smokevis::ReadCadFile(this->FileName, options, progress); });
   smokevis::ApplyImages(*model);
   for (const std::string& warning : model->Warnings)
   {
@@ -186,15 +178,20 @@ int vtkCADReader::RequestData(
         "Lower TransparencyThreshold or change the table");
     }
     this->UpdateProgress(1.0);
+    this->Internals->Kept.Keep(outputVector, SurfacesPort);
+    this->Internals->Kept.Keep(outputVector, EmittersPort);
   }
   catch (const std::exception& error)
   {
-    surfaces->Initialize();
-    emitters->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Internals->Kept.Restore(this, outputVector, SurfacesPort);
+      this->Internals->Kept.Restore(this, outputVector, EmittersPort);
       return 1;
     }
+    this->Internals->Kept.Clear();
+    surfaces->Initialize();
+    emitters->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

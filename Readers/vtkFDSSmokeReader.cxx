@@ -7,6 +7,10 @@
 #include "vtkFDSRun.h"
 #include "vtkFDSSmokeMeshes.h"
 
+#include "Errors.h"
+#include "KeptOutput.h"
+#include "PipelineProgress.h"
+
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -55,6 +59,7 @@ struct vtkFDSSmokeReader::vtkInternals
   // and is told once.
   std::string Problem;
   vtkMTimeType ProblemTime = 0;
+  smokevis::KeptOutput Kept;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -147,9 +152,18 @@ int vtkFDSSmokeReader::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------------------------
+int vtkFDSSmokeReader::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Internals->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkFDSSmokeReader::Refresh()
 {
-  *this->Internals = vtkInternals();
+  // What is shown of it stays until it is read again.
+  this->Internals->Run = smokevis::FDSRun();
   this->Modified();
 }
 
@@ -247,8 +261,10 @@ void vtkFDSSmokeReader::Warn(const std::vector<std::string>& warnings)
 int vtkFDSSmokeReader::RequestData(
   vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputVector)
 {
+  smokevis::KeptOutput& kept = this->Internals->Kept;
   if (!this->LoadRun())
   {
+    kept.Clear();
     return 0;
   }
   const int wanted = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
@@ -261,11 +277,24 @@ int vtkFDSSmokeReader::RequestData(
       if (wanted < 0 || wanted == port)
       {
         this->ReadPort(port, outputVector->GetInformationObject(port));
+        kept.Keep(outputVector, port);
       }
     }
   }
   catch (const std::exception& error)
   {
+    if (this->GetAbortOutput())
+    {
+      for (int port = 0; port < NumberOfPorts; ++port)
+      {
+        if (wanted < 0 || wanted == port)
+        {
+          kept.Restore(this, outputVector, port);
+        }
+      }
+      return 1;
+    }
+    kept.Clear();
     vtkErrorMacro(<< error.what());
     return 0;
   }
@@ -324,18 +353,14 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   Outcome outcome = Outcome::Good;
   try
   {
-    meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(),
-      [this](double fraction)
-      {
-        this->UpdateProgress(fraction);
-        return !this->CheckAbort();
-      });
-    outcome = meshes.empty() && pieces.First() < pieces.End() ? Outcome::Aborted : Outcome::Good;
+    smokevis::RunWithProgress(this, 0.0, 0.9,
+      [&](smokevis::Progress& progress)
+      { meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(), progress); });
   }
   catch (const std::exception& error)
   {
     problem = error.what();
-    outcome = Outcome::Failed;
+    outcome = this->GetAbortOutput() ? Outcome::Aborted : Outcome::Failed;
   }
   // All processes go on, or none.
   const Outcome all = pieces.Agree(outcome);
@@ -347,7 +372,9 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   }
   if (all == Outcome::Aborted)
   {
-    return;
+    // Perhaps by another process only.
+    this->SetAbortOutput(true);
+    throw smokevis::Error("FDS reader", "reading was stopped", "Update again to have it done");
   }
 
   std::vector<smokevis::FlameLight> lights(index.Meshes.size());
