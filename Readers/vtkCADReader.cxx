@@ -4,6 +4,7 @@
 #include "CadImages.h"
 #include "CadPolyData.h"
 #include "Errors.h"
+#include "FiniteProperty.h"
 #include "KeptOutput.h"
 #include "MaterialTable.h"
 #include "PipelineProgress.h"
@@ -61,6 +62,30 @@ vtkCADReader::~vtkCADReader()
 }
 
 //------------------------------------------------------------------------------------------------
+void vtkCADReader::SetDefaultReflectance(double value)
+{
+  smokevis::SetClamped(this, this->DefaultReflectance, value, 0.0, 1.0);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::SetTransparencyThreshold(double value)
+{
+  smokevis::SetClamped(this, this->TransparencyThreshold, value, 0.0, 1.0);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::CheckProperties() const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    smokevis::CheckFinite("Translation", this->Translation[axis], "Give metres");
+    smokevis::CheckFinite("Rotation", this->Rotation[axis], "Give degrees");
+  }
+  smokevis::CheckFinite("DefaultReflectance", this->DefaultReflectance, "Give 0 to 1");
+  smokevis::CheckFinite("TransparencyThreshold", this->TransparencyThreshold, "Give 0 to 1");
+}
+
+//------------------------------------------------------------------------------------------------
 int vtkCADReader::ComputePipelineMTime(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
 {
@@ -114,6 +139,7 @@ int vtkCADReader::RequestData(
   vtkPolyData* const emitters = vtkPolyData::GetData(outputVector, EmittersPort);
   try
   {
+    this->CheckProperties();
     this->LoadModel();
     const smokevis::CadModel& model = *this->Internals->Model;
     smokevis::MaterialTable table;

@@ -92,6 +92,11 @@ void Fill(const SmokeRequest& request, int number, SmokeMesh& result)
     result.Light = request.Glow ? GlowOfSmoke(mesh, values, extinction, request.Albedo, luminance)
                                 : SpreadFlameLight(mesh, values, extinction, request.Albedo,
                                     request.Efficacy, luminance);
+    if (request.Heat)
+    {
+      request.Heat->Read(number, request.Time, request.Interpolation, solid, values);
+      result.Light.HeatRelease = TotalHeatRelease(mesh, values);
+    }
   }
 }
 

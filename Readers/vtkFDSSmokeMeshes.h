@@ -28,6 +28,8 @@ struct SmokeRequest
   /// heat release rate, and Efficacy is the light per heat release [lm/W].
   FlameSource* Flames = nullptr;
   bool Glow = false;
+  /// Where Flames gives a temperature: what tells the heat release rate, null for nothing.
+  FlameSource* Heat = nullptr;
   double Efficacy = 0.0;
   double Albedo = 0.0;
   /// [s]
