@@ -2,6 +2,7 @@
 #include "ErrorCollector.h"
 #include "Errors.h"
 #include "SignPlate.h"
+#include "TextFile.h"
 
 #include <vtkDelimitedTextReader.h>
 #include <vtkNew.h>
@@ -12,8 +13,8 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 namespace smokevis
 {
@@ -73,20 +74,12 @@ struct Lines
 
 Lines ReadLines(const std::string& fileName)
 {
-  std::ifstream file(fileName);
-  if (!file)
-  {
-    throw Error("sign table '" + fileName + "'", "the file cannot be opened",
-      "Give a CSV file with a header line");
-  }
+  std::istringstream file(
+    ReadTextFile("sign table '" + fileName + "'", fileName, "Give a CSV file with a header line"));
   Lines lines;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)
   {
-    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-    {
-      line.erase(0, 3);
-    }
     line = Trim(line);
     if (line.empty() || line[0] == '#')
     {

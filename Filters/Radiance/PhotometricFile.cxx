@@ -2,11 +2,11 @@
 
 #include "Errors.h"
 #include "IntensityTable.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -254,13 +254,8 @@ std::vector<double> AllPlanes(
 PhotometricFile PhotometricFile::Read(const std::string& fileName)
 {
   const std::string where = "photometric file '" + fileName + "'";
-  std::ifstream file(fileName, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-  {
-    throw Error(where, "it cannot be read", "Give an IES file of the luminaire's maker");
-  }
-  return PhotometricFile::Parse(text.str(), where);
+  return PhotometricFile::Parse(
+    ReadTextFile(where, fileName, "Give an IES file of the luminaire's maker"), where);
 }
 
 PhotometricFile PhotometricFile::Parse(const std::string& text, const std::string& where)

@@ -1,11 +1,12 @@
 #include "ResponseCurve.h"
 
 #include "Errors.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace smokevis
 {
@@ -61,21 +62,13 @@ double Number(const std::string& text, const std::string& where)
 ResponseCurve ResponseCurve::Read(const std::string& fileName)
 {
   const std::string name = "response curve '" + fileName + "'";
-  std::ifstream file(fileName);
-  if (!file)
-  {
-    throw Error(
-      name, "the file cannot be opened", "Give a CSV file with the header exposure,pixel_value");
-  }
+  std::istringstream file(
+    ReadTextFile(name, fileName, "Give a CSV file with the header exposure,pixel_value"));
   ResponseCurve curve;
   bool header = false;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)
   {
-    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-    {
-      line.erase(0, 3);
-    }
     line = Trim(line);
     if (line.empty() || line[0] == '#')
     {
