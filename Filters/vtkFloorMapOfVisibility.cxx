@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "EyeProperties.h"
 #include "FloorMap.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
 #include "WholeInput.h"
@@ -24,6 +25,7 @@ vtkStandardNewMacro(vtkFloorMapOfVisibility);
 struct vtkFloorMapOfVisibility::Internals
 {
   smokevis::LightFieldInput Input;
+  smokevis::KeptOutput Kept;
 };
 
 namespace
@@ -75,6 +77,14 @@ vtkFloorMapOfVisibility::vtkFloorMapOfVisibility() : Implementation(std::make_un
 
 //------------------------------------------------------------------------------
 vtkFloorMapOfVisibility::~vtkFloorMapOfVisibility() = default;
+
+//------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
 
 //------------------------------------------------------------------------------
 int vtkFloorMapOfVisibility::FillInputPortInformation(int, vtkInformation* info)
@@ -183,8 +193,10 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   options.Eye = eye;
   options.ThresholdSpread = this->ThresholdSpread;
   options.State = state;
-  smokevis::PipelineProgress progress(this, 0.05, 0.98);
-  const smokevis::FloorMap map = smokevis::ComputeFloorMap(view, options, progress);
+  smokevis::FloorMap map;
+  smokevis::RunWithProgress(this, 0.05, 0.98,
+    [&](smokevis::Progress& progress)
+    { map = smokevis::ComputeFloorMap(view, options, progress); });
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);
@@ -212,6 +224,7 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   output->GetPointData()->SetActiveScalars("Visibility");
   output->GetFieldData()->AddArray(ids);
   smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
   smokevis::AddWorkReport(*output, map.Report);
 }
 
@@ -223,15 +236,18 @@ int vtkFloorMapOfVisibility::RequestData(
   try
   {
     this->Compute(vtkDataObject::GetData(inputVector[0]), output);
+    this->Implementation->Kept.Keep(outputVector, 0);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -17,8 +17,8 @@
  *   sign;
  * - `Status`, int: SEEN, BELOW_THRESHOLD, NO_SIGN_IN_VIEW, INSIDE_SOLID.
  *
- * Field data: `SignIds` and `SignNames` in the order of the components, and what was done and left
- * out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ * Field data: `SignIds` and `SignNames` in the order of the components, `ContrastThreshold`, and
+ * what was done and left out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
  */
 #ifndef vtkFloorMapOfVisibility_h
 #define vtkFloorMapOfVisibility_h
@@ -153,6 +153,8 @@ protected:
   vtkFloorMapOfVisibility();
   ~vtkFloorMapOfVisibility() override;
 
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

@@ -1,6 +1,7 @@
 #include "vtkSmokeLightField.h"
 
 #include "Errors.h"
+#include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
@@ -137,9 +138,26 @@ void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, 
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSmokeLightField::vtkSmokeLightField()
+struct vtkSmokeLightField::Internals
+{
+  smokevis::KeptOutput Kept;
+};
+
+//------------------------------------------------------------------------------
+vtkSmokeLightField::vtkSmokeLightField() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+vtkSmokeLightField::~vtkSmokeLightField() = default;
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -306,8 +324,10 @@ void vtkSmokeLightField::Solve(
   solver.Seed = static_cast<std::uint64_t>(this->Seed);
   // TBB warns on the console about threads that the machine does not have.
   solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
-  smokevis::PipelineProgress progress(this, 0.02, 0.98);
-  smokevis::LightField field = smokevis::SolveLightField(scene, solver, progress);
+  smokevis::LightField field;
+  smokevis::RunWithProgress(this, 0.02, 0.98,
+    [&](smokevis::Progress& progress)
+    { field = smokevis::SolveLightField(scene, solver, progress); });
   report.insert(report.end(), field.Report.begin(), field.Report.end());
   smokevis::StoreLightField(std::move(field), blocks, this->Bands);
 
@@ -365,15 +385,18 @@ int vtkSmokeLightField::RequestData(
   try
   {
     this->Solve(inputVector, output);
+    this->Implementation->Kept.Keep(outputVector, 0);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

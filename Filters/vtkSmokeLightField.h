@@ -41,6 +41,8 @@
 #include "SmokeFiltersModule.h"
 #include <vtkPartitionedDataSetCollectionAlgorithm.h>
 
+#include <memory>
+
 namespace smokevis
 {
 struct SceneBlocks;
@@ -156,8 +158,10 @@ public:
 
 protected:
   vtkSmokeLightField();
-  ~vtkSmokeLightField() override = default;
+  ~vtkSmokeLightField() override;
 
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -182,6 +186,9 @@ private:
   int Seed = 1;
   double PatchSize = 0.0;
   int Threads = 0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
 };
 
 #endif

@@ -5,6 +5,7 @@
 #include "Eye.h"
 #include "EyeProperties.h"
 #include "ImageTracer.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
@@ -32,6 +33,7 @@ vtkStandardNewMacro(vtkVisibilityImage);
 struct vtkVisibilityImage::Internals
 {
   smokevis::LightFieldInput Input;
+  smokevis::KeptOutput Kept;
   /// Of filter and input when the image could not be made, 0: it could.
   vtkMTimeType FailedFilter = 0;
   vtkMTimeType FailedInput = 0;
@@ -118,6 +120,14 @@ vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Inter
 vtkVisibilityImage::~vtkVisibilityImage()
 {
   this->SetResponseFile(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -253,8 +263,10 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     camera.FocusDistance = lens.ObjectDistance;
   }
 
-  smokevis::PipelineProgress progress(this, 0.1, 0.95);
-  const smokevis::TracedImage image = smokevis::TraceImage(view, camera, observer.Acuity, progress);
+  smokevis::TracedImage image;
+  smokevis::RunWithProgress(this, 0.1, 0.95,
+    [&](smokevis::Progress& progress)
+    { image = smokevis::TraceImage(view, camera, observer.Acuity, progress); });
 
   output->SetOrigin(0.0, 0.0, 0.0);
   output->SetSpacing(1.0, 1.0, 1.0);
@@ -369,16 +381,21 @@ int vtkVisibilityImage::RequestData(
   try
   {
     this->Trace(input, output, photograph);
+    own.Kept.Keep(outputVector, 0);
+    own.Kept.Keep(outputVector, 1);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
-    photograph->Initialize();
     if (this->GetAbortOutput())
     {
+      own.Kept.Restore(this, outputVector, 0);
+      own.Kept.Restore(this, outputVector, 1);
       return 1;
     }
+    own.Kept.Clear();
+    output->Initialize();
+    photograph->Initialize();
     own.FailedFilter = this->GetMTime();
     own.FailedInput = inputTime;
     vtkErrorMacro(<< error.what());

@@ -1,5 +1,7 @@
 #include "vtkFDSPlaneSlices.h"
 
+#include "vtkFDSBlocks.h"
+
 #include "Errors.h"
 
 #include "vtkCellData.h"
@@ -8,7 +10,6 @@
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStringArray.h"
 
 #include <array>
 #include <sstream>
@@ -30,14 +31,6 @@ int NormalOf(const IndexRange& range)
     }
   }
   return -1;
-}
-
-void AddText(vtkFieldData* fields, const char* name, const std::string& text)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(text);
-  fields->AddArray(array);
 }
 
 } // namespace
@@ -127,9 +120,9 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
     slice.CellCentred ? static_cast<vtkDataSetAttributes*>(grid->GetCellData())
                       : static_cast<vtkDataSetAttributes*>(grid->GetPointData());
   attributes->SetScalars(array);
-  AddText(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
-  AddText(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
-  AddText(grid->GetFieldData(), "File", slice.File);
+  AddField(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
+  AddField(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
+  AddField(grid->GetFieldData(), "File", slice.File);
   return grid;
 }
 

@@ -106,6 +106,8 @@ struct SmvSmoke3D
   int Mesh = 0;
   /// Mass extinction coefficient Km [m2/kg]; 0 for quantities that are not smoke.
   double MassExtinction = 0.0;
+  /// Whether the index says so; FDS's default is taken where it does not.
+  bool StatesMassExtinction = false;
   std::string File;
   SmvQuantity Quantity;
 };

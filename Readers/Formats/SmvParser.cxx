@@ -187,6 +187,13 @@ void SmvParser::Parse(std::string_view line)
 //------------------------------------------------------------------------------------------------
 void SmvParser::Check()
 {
+  if (strangeChanges_ > 0)
+  {
+    const std::string more =
+      strangeChanges_ > 1 ? " (and " + std::to_string(strangeChanges_ - 1) + " more like it)" : "";
+    index_.Warnings.push_back(
+      strangeChange_ + more + ". What it shows, hides, opens or closes stays as it is.");
+  }
   if (index_.Meshes.empty())
   {
     throw Error(index_.Path, "the file names no mesh (no GRID entry)",
