@@ -241,18 +241,21 @@ void vtkJinVisibility::Compute(
     const bool reaches = sampled[i] >= this->MaximumVisibility || nearest <= sampled[i];
     fds->SetValue(i, std::isnan(sampled[i]) ? NOT_KNOWN : Compare(state, any, any && reaches));
   };
-  smokevis::PipelineProgress progress(this, 0.1, 0.95);
   const vtkIdType places = map->GetNumberOfPoints();
   const vtkIdType chunk = std::max<vtkIdType>(64, places / 50);
-  for (vtkIdType begin = 0; begin < places; begin += chunk)
-  {
-    tbb::parallel_for(begin, std::min(places, begin + chunk), place);
-    progress.Report(static_cast<double>(begin) / static_cast<double>(places));
-    if (progress.ShouldStop())
+  smokevis::RunWithProgress(this, 0.1, 0.95,
+    [&](smokevis::Progress& progress)
     {
-      throw Error("Jin visibility", "the work was stopped");
-    }
-  }
+      for (vtkIdType begin = 0; begin < places; begin += chunk)
+      {
+        tbb::parallel_for(begin, std::min(places, begin + chunk), place);
+        progress.Report(static_cast<double>(begin) / static_cast<double>(places));
+        if (progress.ShouldStop())
+        {
+          throw Error("Jin visibility", "the work was stopped");
+        }
+      }
+    });
 
   output->GetPointData()->SetActiveScalars("JinDifference");
   output->GetFieldData()->AddArray(ids);
