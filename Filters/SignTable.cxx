@@ -184,7 +184,7 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
 {
   const std::string where = "sign table '" + fileName + "'";
   const std::vector<TextLine> lines =
-    ReadTableLines(fileName, where, "Give a CSV file with a header line");
+    ReadTableLines(where, fileName, "Give a CSV file with a header line");
   if (lines.size() < 2)
   {
     throw Error(where, "it holds no sign", "Give a header line and a line for each sign");

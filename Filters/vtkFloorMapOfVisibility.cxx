@@ -5,6 +5,7 @@
 #include "FloorMap.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
 #include "WholeInput.h"
 
@@ -32,6 +33,9 @@ namespace
 {
 
 constexpr double MaximumValues = 1e8;
+/// Arrays with a value a place, and with one a place and sign: the solver's and the output's.
+constexpr double PlaceBytes = 2 * 8 * sizeof(float);
+constexpr double SignBytes = 2 * 4 * sizeof(float);
 
 using smokevis::Error;
 using smokevis::Vec3;
@@ -149,15 +153,17 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     throw Error("floor map", "the light field holds no sign",
       "Give emitters with a SignId from 0, such as the source ExitSign makes");
   }
-  const double values = static_cast<double>(this->Resolution[0]) * this->Resolution[1] *
-                        static_cast<double>(signs.size());
-  if (values > MaximumValues)
+  const double places = static_cast<double>(this->Resolution[0]) * this->Resolution[1];
+  if (places * static_cast<double>(signs.size()) > MaximumValues)
   {
     throw Error("Resolution",
       "the map would hold more than 100 million values, places times " +
         std::to_string(signs.size()) + " signs",
       "Give fewer places");
   }
+
+  smokevis::RequireMemory("Resolution", "the map",
+    places * (PlaceBytes + SignBytes * static_cast<double>(signs.size())), "Give fewer places");
 
   const smokevis::Medium& smoke = view.TheScene().Smoke();
   double bounds[6] = {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y,

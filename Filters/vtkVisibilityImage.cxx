@@ -7,6 +7,7 @@
 #include "ImageTracer.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
 #include "ThinLens.h"
@@ -45,6 +46,9 @@ namespace
 /// In metres.
 constexpr double Millimetre = 1e-3;
 constexpr std::int64_t MaximumPixels = 100000000;
+/// Of all arrays: the tracer's (two where the lens blurs), the outputs' and the photograph's.
+constexpr double PixelBytes = 100.0;
+constexpr double BlurredPixelBytes = 140.0;
 /// Threshold of observers and its spread, for the share of them who see the sign.
 constexpr double Threshold = 0.2;
 constexpr double ThresholdSpread = 0.04;
@@ -227,6 +231,8 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   double sensor[2];
   int size[2];
   this->UseModel(sensor, size);
+  smokevis::RequireMemory("ImageSize", "the image",
+    (this->LensBlur ? BlurredPixelBytes : PixelBytes) * size[0] * size[1], "Give a smaller image");
   const smokevis::ThinLens lens =
     this->FocusDistance > 0.0
       ? smokevis::ThinLens::Focused(Millimetre * this->FocalLength, this->FocusDistance)

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "IntensityTable.h"
+#include "TextFile.h"
 #include "TextLines.h"
 
 #include <algorithm>
@@ -261,7 +262,7 @@ PhotometricFile PhotometricFile::Read(const std::string& fileName)
 {
   const std::string where = "photometric file '" + fileName + "'";
   return PhotometricFile::Parse(
-    ReadText(fileName, where, "Give an IES file of the luminaire's maker"), where);
+    ReadTextFile(where, fileName, "Give an IES file of the luminaire's maker"), where);
 }
 
 PhotometricFile PhotometricFile::Parse(const std::string& text, const std::string& where)

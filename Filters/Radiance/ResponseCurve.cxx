@@ -45,7 +45,7 @@ ResponseCurve ResponseCurve::Read(const std::string& fileName)
   ResponseCurve curve;
   bool header = false;
   for (const auto& [number, line] :
-    ReadTableLines(fileName, name, "Give a CSV file with the header exposure,pixel_value"))
+    ReadTableLines(name, fileName, "Give a CSV file with the header exposure,pixel_value"))
   {
     const std::string where = name + ", line " + std::to_string(number);
     const std::size_t comma = line.find(',');

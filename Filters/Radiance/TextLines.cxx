@@ -1,11 +1,9 @@
 #include "TextLines.h"
 
 #include "Errors.h"
+#include "TextFile.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <utf8.h>
 
@@ -19,31 +17,6 @@ std::string Trimmed(const std::string& text)
   const std::size_t first = text.find_first_not_of(blanks);
   return first == std::string::npos ? std::string()
                                     : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-//------------------------------------------------------------------------------
-std::string ReadText(
-  const std::string& fileName, const std::string& name, const std::string& remedy)
-{
-  std::error_code code;
-  std::ifstream file(fileName, std::ios::binary);
-  if (!file || std::filesystem::is_directory(fileName, code))
-  {
-    throw Error(name, "the file cannot be opened", remedy);
-  }
-  std::ostringstream stream;
-  stream << file.rdbuf();
-  std::string text = stream.str();
-  if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 ||
-      text.find('\0') != std::string::npos)
-  {
-    throw Error(name, "it is not plain text", "Save it as UTF-8, not as UTF-16");
-  }
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0)
-  {
-    text.erase(0, 3);
-  }
-  return text;
 }
 
 //------------------------------------------------------------------------------
@@ -61,16 +34,16 @@ std::vector<std::string> SplitLines(const std::string& text)
 
 //------------------------------------------------------------------------------
 std::vector<TextLine> ReadTableLines(
-  const std::string& fileName, const std::string& name, const std::string& remedy)
+  const std::string& where, const std::string& fileName, const std::string& remedy)
 {
   std::vector<TextLine> result;
   int number = 0;
-  for (const std::string& raw : SplitLines(ReadText(fileName, name, remedy)))
+  for (const std::string& raw : SplitLines(ReadTextFile(where, fileName, remedy)))
   {
     ++number;
     if (!utf8::is_valid(raw.begin(), raw.end()))
     {
-      throw Error(name + ", line " + std::to_string(number),
+      throw Error(where + ", line " + std::to_string(number),
         "it holds a letter that is not UTF-8, as files in Latin-1 or Windows-1252 do",
         "Save the file as UTF-8");
     }

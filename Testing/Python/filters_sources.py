@@ -208,7 +208,7 @@ def check_errors(folder, image, table):
     writer.Write()
     sign("huge image", "1000 x 1000 pixels", Pattern="Image", PatternFile=huge)
 
-    sign("missing table", "cannot be opened", SignTable=os.path.join(folder, "nothing.csv"))
+    sign("missing table", "no such file", SignTable=os.path.join(folder, "nothing.csv"))
     for text, part in (("", "holds no sign"),
                        ("cx,cy,cz\n", "holds no sign"),
                        ("cx;cy;cz\n1;2;3\n", "line 1: the column"),

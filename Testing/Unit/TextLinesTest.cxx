@@ -22,7 +22,7 @@ std::string MessageFor(const std::string& bytes)
 {
   try
   {
-    ReadTableLines(Written(bytes), "the table", "Give one");
+    ReadTableLines("the table", Written(bytes), "Give one");
   }
   catch (const Error& error)
   {
@@ -46,7 +46,7 @@ TEST(TextLines, EndsLinesAsAnySystemDoes)
 TEST(TextLines, NumbersTheLinesThatCount)
 {
   const std::vector<TextLine> lines =
-    ReadTableLines(Written("\xEF\xBB\xBFone\n# two\n \t\n  four \xC3\xB6 \n"), "it", "");
+    ReadTableLines("it", Written("\xEF\xBB\xBFone\n# two\n \t\n  four \xC3\xB6 \n"), "");
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].Number, 1);
   EXPECT_EQ(lines[0].Text, "one");
@@ -64,8 +64,8 @@ TEST(TextLines, RefusesWhatIsNoText)
   EXPECT_NE(MessageFor(std::string("a\0b", 3)).find("not plain text"), std::string::npos);
   EXPECT_NE(
     MessageFor("a\n\xFC\n").find("the table, line 2: it holds a letter"), std::string::npos);
-  EXPECT_THROW(ReadText("no such file", "it", "Give one"), Error);
-  EXPECT_THROW(ReadText(testing::TempDir(), "it", "Give one"), Error);
+  EXPECT_THROW(ReadTableLines("it", "no such file", "Give one"), Error);
+  EXPECT_THROW(ReadTableLines("it", testing::TempDir(), "Give one"), Error);
 }
 
 } // namespace smokevis
