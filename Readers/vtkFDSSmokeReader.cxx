@@ -359,7 +359,7 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
     double cells = 0.0;
     for (int i = pieces.First(); i < pieces.End(); ++i)
     {
-      const smokevis::SmvMesh& mesh = own.Index->Meshes[i];
+      const smokevis::SmvMesh& mesh = index.Meshes[i];
       cells += static_cast<double>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2);
     }
     smokevis::RequireMemory(std::string("run '") + this->FileName + "'", "its smoke",
