@@ -1,6 +1,7 @@
 #include "vtkFloorMapOfVisibility.h"
 
 #include "Errors.h"
+#include "EyeProperties.h"
 #include "FloorMap.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
@@ -13,7 +14,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -136,22 +136,16 @@ void vtkFloorMapOfVisibility::CheckProperties() const
     "Give 0.2 for the point of disappearance");
   check(notNegative(this->ThresholdSpread), "ThresholdSpread", "it is negative",
     "Give 0.04, or 0 for observers who are all alike");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
   check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(
-    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
-  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
-    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
 void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
 {
   this->CheckProperties();
+  const smokevis::Adaptation state{
+    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  const smokevis::Observer eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   const smokevis::View& view = this->Implementation->Input.Get(input);
   const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
   if (signs.empty())
@@ -202,9 +196,9 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     bounds[0] + 0.5 * options.StepX, bounds[2] + 0.5 * options.StepY, bounds[4] + this->EyeHeight};
   options.ContrastThreshold = this->ContrastThreshold;
   options.CutOff = this->CutOff;
-  options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  options.Eye = eye;
   options.ThresholdSpread = this->ThresholdSpread;
-  options.State = {this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  options.State = state;
   smokevis::FloorMap map;
   smokevis::RunWithProgress(this, 0.05, 0.98,
     [&](smokevis::Progress& progress)

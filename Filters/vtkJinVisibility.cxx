@@ -1,6 +1,7 @@
 #include "vtkJinVisibility.h"
 
 #include "Errors.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
 #include "SightLine.h"
@@ -25,6 +26,11 @@
 #include <limits>
 
 vtkStandardNewMacro(vtkJinVisibility);
+
+struct vtkJinVisibility::Internals
+{
+  smokevis::KeptOutput Kept;
+};
 
 namespace
 {
@@ -90,9 +96,20 @@ void AddCounts(vtkImageData* image, const char* name)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkJinVisibility::vtkJinVisibility()
+vtkJinVisibility::vtkJinVisibility() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+vtkJinVisibility::~vtkJinVisibility() = default;
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -275,15 +292,18 @@ int vtkJinVisibility::RequestData(
   {
     this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
       vtkDataObject::GetData(inputVector[2]), output);
+    this->Implementation->Kept.Keep(outputVector, 0);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -40,6 +40,8 @@
 #include "SmokeFiltersModule.h"
 #include <vtkImageAlgorithm.h>
 
+#include <memory>
+
 class SMOKEFILTERS_EXPORT vtkJinVisibility : public vtkImageAlgorithm
 {
 public:
@@ -107,7 +109,10 @@ public:
 
 protected:
   vtkJinVisibility();
-  ~vtkJinVisibility() override = default;
+  ~vtkJinVisibility() override;
+
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -127,6 +132,9 @@ private:
   double LiminalContrast = 0.02;
   double MaximumVisibility = 30.0;
   double SliceTolerance = 0.3;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
 };
 
 #endif

@@ -13,7 +13,8 @@ namespace smokevis
 {
 
 /// The whole of a text file, without a byte order mark. Throws Error for what is no file, such as a
-/// folder or a device without an end, and for what is too large to have been written for this.
+/// folder or a device without an end, for what is too large to have been written for this, and for
+/// what is no plain text (UTF-16, bytes of 0).
 /// @param where names the file in messages
 inline std::string ReadTextFile(
   const std::string& where, const std::string& fileName, const std::string& remedy)
@@ -41,6 +42,11 @@ inline std::string ReadTextFile(
   if (text.compare(0, byteOrderMark.size(), byteOrderMark) == 0)
   {
     text.erase(0, byteOrderMark.size());
+  }
+  if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0 ||
+      text.find('\0') != std::string::npos)
+  {
+    throw Error(where, "it is not plain text", "Save it as UTF-8, not as UTF-16");
   }
   return text;
 }
