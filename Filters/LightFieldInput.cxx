@@ -57,13 +57,12 @@ const View& LightFieldInput::Get(vtkDataObject* input)
   {
     throw Error("light field", "there is no input", Remedy);
   }
-  const vtkMTimeType time = std::max(input->GetMTime(), input->GetUpdateTime());
-  if (!this->View_ || this->Input_ != input || this->InputTime_ != time)
+  Identity identity = IdentityOf(input);
+  if (!this->View_ || this->Input_ != identity)
   {
     this->View_.reset();
     this->Load(input);
-    this->Input_ = input;
-    this->InputTime_ = time;
+    this->Input_ = std::move(identity);
   }
   return *this->View_;
 }

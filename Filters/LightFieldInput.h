@@ -2,11 +2,11 @@
 // the same.
 #pragma once
 
+#include "Identity.h"
 #include "SceneBlocks.h"
 #include "View.h"
 
 #include <vtkDataObject.h>
-#include <vtkWeakPointer.h>
 
 #include <initializer_list>
 #include <map>
@@ -42,8 +42,7 @@ public:
 private:
   void Load(vtkDataObject* input);
 
-  vtkWeakPointer<vtkDataObject> Input_;
-  vtkMTimeType InputTime_ = 0;
+  Identity Input_;
   int Bands_ = 1;
   std::map<int, std::string> SignNames_;
   std::unique_ptr<const View> View_;

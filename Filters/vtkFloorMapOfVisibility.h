@@ -28,6 +28,11 @@
 
 #include <memory>
 
+namespace smokevis
+{
+struct FloorMapOptions;
+}
+
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
 {
 public:
@@ -165,6 +170,8 @@ private:
   void operator=(const vtkFloorMapOfVisibility&) = delete;
 
   void CheckProperties() const;
+  /// Checks what is asked for against the light field.
+  smokevis::FloorMapOptions Prepare(vtkDataObject* input);
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;
