@@ -139,7 +139,11 @@ void FloorMapNetcdf::Define(vtkImageData* map)
   };
   using Type = NetcdfFile::Type;
   this->Time_ = file.Variable("time", Type::Double, {time});
-  describe(this->Time_, "s", "time since the start of the fire simulation", "T");
+  // The conventions want a date, by which VTK and ParaView know the axis of time as well.
+  describe(this->Time_, "seconds since 2000-01-01 00:00:00",
+    "time of the fire simulation; the date stands for its zero", "T");
+  file.Attribute(this->Time_, "standard_name", "time");
+  file.Attribute(this->Time_, "calendar", "standard");
   this->Y_ = file.Variable("y", Type::Double, {y});
   describe(this->Y_, "m", "place along y", "Y");
   this->X_ = file.Variable("x", Type::Double, {x});

@@ -11,9 +11,9 @@
  * y, x);
  * - `visibility`, `visibility_error`, `visible_probability`, `best_sign`, `status`: (time, y, x);
  * - the attribute `contrast_threshold`.
- * Times count from the start of the simulation and have the unit s, not a date. With Table a table
- * of the quantities of the signs goes into a file of the same name that ends in .csv, a row a time,
- * place and sign. Where something fails no file is left.
+ * Times are the simulation's seconds; as the conventions want a date, 2000-01-01 stands for 0 s.
+ * With Table a table of the quantities of the signs goes into a file of the same name that ends in
+ * .csv, a row a time, place and sign. Where something fails no file is left.
  */
 #ifndef vtkFloorMapWriter_h
 #define vtkFloorMapWriter_h

@@ -6,7 +6,7 @@ import tempfile
 import numpy
 from scipy.io import netcdf_file
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkIONetCDF import vtkNetCDFReader
+from vtkmodules.vtkIONetCDF import vtkNetCDFCFReader
 
 import scenes
 
@@ -40,7 +40,7 @@ with tempfile.TemporaryDirectory() as folder:
         assert file.variables["status"].dimensions == ("time", "y", "x")
         units = {name: getattr(variable, "units", b"") for name, variable in file.variables.items()}
         assert file.variables["status"].flag_meanings.split()[2] == b"no_sign_in_view"
-    assert list(variables["time"]) == TIMES and units["time"] == b"s"
+    assert list(variables["time"]) == TIMES and units["time"] == b"seconds since 2000-01-01 00:00:00"
     assert numpy.allclose(variables["x"], numpy.arange(1.0, 12.0, 2.0)) and units["x"] == b"m"
     assert numpy.allclose(variables["y"], [1.0, 3.0]) and float(variables["z"]) == 1.5
     assert list(variables["sign"]) == [4, 9] and units["sign_luminance"] == b"cd m-2"
@@ -63,17 +63,17 @@ with tempfile.TemporaryDirectory() as folder:
             scenes.check_close(name, float(column), variables[name][at], 1e-7)
 
     # VTK's own reader knows the dimensions and the times as well.
-    reader = vtkNetCDFReader()
+    reader = vtkNetCDFCFReader()
     reader.SetFileName(path)
     reader.UpdateMetaData()
-    # It takes the first dimension for the time.
+    # It knows the time by its unit.
     reader.SetDimensions("(sign, y, x)")
     reader.UpdateInformation()
     steps = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
     assert list(steps) == TIMES, steps
     reader.UpdateTimeStep(300.0)
     data = reader.GetOutputDataObject(0)
-    read = scenes.point_array(data, "perceived_contrast")
+    read = scenes.cell_array(data, "perceived_contrast")
     assert numpy.array_equal(read, variables["perceived_contrast"][3].ravel())
 
     # Some of the steps; a map without time; and what cannot be written leaves nothing behind.
