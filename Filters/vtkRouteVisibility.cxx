@@ -1,6 +1,7 @@
 #include "vtkRouteVisibility.h"
 
 #include "Errors.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "RouteInput.h"
 #include "RouteWalk.h"
@@ -26,6 +27,11 @@
 #include <functional>
 
 vtkStandardNewMacro(vtkRouteVisibility);
+
+struct vtkRouteVisibility::Internals
+{
+  smokevis::KeptOutput Kept;
+};
 
 namespace
 {
@@ -150,9 +156,20 @@ void AddLines(vtkPolyData* output, const std::vector<RouteWalker>& walkers)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkRouteVisibility::vtkRouteVisibility()
+vtkRouteVisibility::vtkRouteVisibility() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkRouteVisibility::~vtkRouteVisibility() = default;
+
+//------------------------------------------------------------------------------
+int vtkRouteVisibility::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -319,15 +336,23 @@ int vtkRouteVisibility::RequestData(
   try
   {
     this->Compute(inputVector[0], vtkDataObject::GetData(inputVector[1]), output);
+    this->Implementation->Kept.Keep(outputVector, 0);
+    return 1;
+  }
+  catch (const smokevis::StoppedUpstream&)
+  {
+    this->Implementation->Kept.Restore(this, outputVector, 0);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

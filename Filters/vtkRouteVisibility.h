@@ -35,6 +35,8 @@
 #include "SmokeFiltersModule.h"
 #include <vtkPolyDataAlgorithm.h>
 
+#include <memory>
+
 class SMOKEFILTERS_EXPORT vtkRouteVisibility : public vtkPolyDataAlgorithm
 {
 public:
@@ -148,7 +150,10 @@ public:
 
 protected:
   vtkRouteVisibility();
-  ~vtkRouteVisibility() override = default;
+  ~vtkRouteVisibility() override;
+
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -173,6 +178,9 @@ private:
   double DarkLuminance = 0.1;
   double Acuity = 1.0;
   double AdaptationLuminance = 0.0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
 };
 
 #endif

@@ -15,6 +15,7 @@ import tempfile
 import time
 
 import scenes
+from samples import IES, RESPONSE, png
 from scenes import fetch, image, producer
 
 simple = scenes.load_plugin()
@@ -22,36 +23,6 @@ DATA = sys.argv[2]
 # The pipeline's own message, that an algorithm failed, follows the algorithm's.
 ERRORS = re.compile(r"ERROR: In \S*vtk(?!Executive)")
 LONGEST = 20.0  # s, for a file that a reader should turn down at once
-
-IES = """IESNA:LM-63-2002
-[TEST] none
-TILT=NONE
-1 1000 1 5 1 1 2 0.5 0.5 0
-1 1 50
-0 22.5 45 67.5 90
-0
-300 280 200 90 10
-"""
-RESPONSE = "exposure,pixel_value\n0.1,1\n1,20\n10,118\n100,255\n"
-
-
-def png():
-    """A small picture, written by VTK."""
-    from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
-    from vtkmodules.vtkCommonDataModel import vtkImageData
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-
-    picture = vtkImageData()
-    picture.SetDimensions(8, 4, 1)
-    grey = vtkUnsignedCharArray()
-    for pixel in range(32):
-        grey.InsertNextValue(255 * (pixel % 2))
-    picture.GetPointData().SetScalars(grey)
-    writer = vtkPNGWriter()
-    writer.SetInputData(picture)
-    writer.WriteToMemoryOn()
-    writer.Write()
-    return bytes(memoryview(writer.GetResult()))
 
 
 def variants(good):
