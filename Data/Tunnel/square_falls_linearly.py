@@ -60,8 +60,9 @@ def judge(numbers):
         "way. The luminance does not: smoke dims lit and unlit parts alike and only its glow "
         "lowers their ratio, slowly at first in glycol "
         f"(by {slopes['glycol']:.2f} a 1/m) and hardly at all in soot ({slopes['soot']:.2f} a "
-        "1/m). What an eye perceives is no line either: it stays high until the sign is as faint as the eye's noise and then falls steeply. The line "
-        "is a property of the camera's response")
+        "1/m). What an eye perceives is no line either: it stays high until the sign is as faint "
+        "as the eye's noise and then falls steeply. The line is a property of the camera's "
+        "response")
 
 
 def draw(numbers, path, title="Red square sign"):
