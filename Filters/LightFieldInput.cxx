@@ -39,22 +39,6 @@ double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
   return value;
 }
 
-std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters)
-{
-  std::map<int, std::string> names;
-  for (const SurfaceBlock& block : emitters)
-  {
-    auto* const texts =
-      vtkStringArray::SafeDownCast(block.Mesh->GetCellData()->GetAbstractArray("SignName"));
-    vtkDataArray* const ids = block.Mesh->GetCellData()->GetArray("SignId");
-    for (vtkIdType i = 0; texts && ids && i < ids->GetNumberOfTuples(); ++i)
-    {
-      names.emplace(static_cast<int>(ids->GetComponent(i, 0)), texts->GetValue(i));
-    }
-  }
-  return names;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -85,29 +69,52 @@ const View& LightFieldInput::Get(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
-void LightFieldInput::Load(vtkDataObject* input)
+SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks)
 {
-  SceneBlocks blocks;
-  vtkDataObject* const smoke = FindBlock(input, "Smoke");
+  vtkDataObject* const smoke = FindBlock(lightField, "Smoke");
   if (!smoke)
   {
     throw Error("light field", "it has no block named Smoke", Remedy);
   }
   blocks.Smoke = CollectSmoke(smoke, "Smoke");
-  blocks.Surfaces = CollectSurfaces(FindBlock(input, "Surfaces"), "Surfaces");
-  blocks.Emitters = CollectSurfaces(FindBlock(input, "Emitters"), "Emitters");
+  blocks.Surfaces = CollectSurfaces(FindBlock(lightField, "Surfaces"), "Surfaces");
+  blocks.Emitters = CollectSurfaces(FindBlock(lightField, "Emitters"), "Emitters");
 
   SceneOptions options;
-  options.Albedo = NeededNumber(input, "Albedo");
+  options.Albedo = NeededNumber(lightField, "Albedo");
   // Light fields from elsewhere may know of no sky.
-  FieldNumber(input, "SkyLuminance", 0, options.Sky);
-  options.Bands = NeededNumber(input, "Bands") == 3.0 ? 3 : 1;
+  FieldNumber(lightField, "SkyLuminance", 0, options.Sky);
+  options.Bands = NeededNumber(lightField, "Bands") == 3.0 ? 3 : 1;
   for (int band = 0; band < options.Bands; ++band)
   {
-    options.ExtinctionScale[band] = NeededNumber(input, "ExtinctionScale", band);
+    options.ExtinctionScale[band] = NeededNumber(lightField, "ExtinctionScale", band);
   }
-  this->Bands_ = options.Bands;
-  SceneDescription description = BuildScene(blocks, options);
+  return BuildScene(blocks, options);
+}
+
+//------------------------------------------------------------------------------
+std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters)
+{
+  std::map<int, std::string> names;
+  for (const SurfaceBlock& block : emitters)
+  {
+    auto* const texts =
+      vtkStringArray::SafeDownCast(block.Mesh->GetCellData()->GetAbstractArray("SignName"));
+    vtkDataArray* const ids = block.Mesh->GetCellData()->GetArray("SignId");
+    for (vtkIdType i = 0; texts && ids && i < ids->GetNumberOfTuples(); ++i)
+    {
+      names.emplace(static_cast<int>(ids->GetComponent(i, 0)), texts->GetValue(i));
+    }
+  }
+  return names;
+}
+
+//------------------------------------------------------------------------------
+void LightFieldInput::Load(vtkDataObject* input)
+{
+  SceneBlocks blocks;
+  SceneDescription description = DescribeScene(input, blocks);
+  this->Bands_ = description.Bands;
   if (BandsAreEqual(description))
   {
     description.Bands = 1;

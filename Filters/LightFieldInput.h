@@ -2,6 +2,7 @@
 // the same.
 #pragma once
 
+#include "SceneBlocks.h"
 #include "View.h"
 
 #include <vtkDataObject.h>
@@ -47,6 +48,13 @@ private:
   std::map<int, std::string> SignNames_;
   std::unique_ptr<const View> View_;
 };
+
+/// Describes the scene of a light field, whose parts `blocks` receives. Throws Error where the
+/// input is not the output of SmokeLightField.
+SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks);
+
+/// The names that emitters give to the ids of signs.
+std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters);
 
 /// A number of field data of a light field, in the collection's own field data or, where a file
 /// format dropped those, in those of a block. Returns false where there is none.

@@ -4,7 +4,7 @@
 #include "Errors.h"
 #include "WholeInput.h"
 
-#include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationExecutivePortKey.h>
@@ -92,6 +92,14 @@ void UpdateToTime(vtkInformationVector* input, double time)
   {
     throw Error("the input at " + std::to_string(time) + " s", "it could not be made",
       "See the error of the filter before this one");
+  }
+  // What was given up wants to be done: it stays newer than what it put out.
+  pipeline->UpdatePipelineMTime();
+  vtkDataObject* const data = vtkDataObject::GetData(input);
+  if (!data || pipeline->GetPipelineMTime() > data->GetUpdateTime())
+  {
+    throw StoppedUpstream("the input at " + std::to_string(time) + " s", "it was stopped",
+      "Update again to have it done");
   }
 }
 

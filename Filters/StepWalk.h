@@ -3,11 +3,12 @@
 // are asked for one by one from RequestData.
 #pragma once
 
+#include "Errors.h"
+
 #include <vtkInformationVector.h>
 
 #include <vector>
 
-class vtkAlgorithm;
 class vtkInformation;
 
 namespace smokevis
@@ -27,7 +28,15 @@ std::vector<double> ChooseSteps(
 /// For RequestUpdateExtent: asks for all of the input at a time.
 void AskForTime(vtkInformationVector* input, double time);
 
-/// For RequestData: brings all of the input to a time. Throws Error where a filter upstream fails.
+/// Thrown where a filter upstream was aborted, and put out what it had before.
+class StoppedUpstream : public Error
+{
+public:
+  using Error::Error;
+};
+
+/// For RequestData: brings all of the input to a time. Throws Error where a filter upstream fails,
+/// StoppedUpstream where one was aborted.
 void UpdateToTime(vtkInformationVector* input, double time);
 
 } // namespace smokevis

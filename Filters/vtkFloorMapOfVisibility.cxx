@@ -1,9 +1,11 @@
 #include "vtkFloorMapOfVisibility.h"
 
 #include "Errors.h"
+#include "EyeProperties.h"
 #include "FloorMap.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
 #include "WholeInput.h"
 
@@ -12,7 +14,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -32,6 +33,9 @@ namespace
 {
 
 constexpr double MaximumValues = 1e8;
+/// Arrays with a value a place, and with one a place and sign: the solver's and the output's.
+constexpr double PlaceBytes = 2 * 8 * sizeof(float);
+constexpr double SignBytes = 2 * 4 * sizeof(float);
 
 using smokevis::Error;
 using smokevis::Vec3;
@@ -132,22 +136,16 @@ void vtkFloorMapOfVisibility::CheckProperties() const
     "Give 0.2 for the point of disappearance");
   check(notNegative(this->ThresholdSpread), "ThresholdSpread", "it is negative",
     "Give 0.04, or 0 for observers who are all alike");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
   check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(
-    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
-  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
-    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
 void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
 {
   this->CheckProperties();
+  const smokevis::Adaptation state{
+    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  const smokevis::Observer eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   const smokevis::View& view = this->Implementation->Input.Get(input);
   const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
   if (signs.empty())
@@ -155,15 +153,17 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     throw Error("floor map", "the light field holds no sign",
       "Give emitters with a SignId from 0, such as the source ExitSign makes");
   }
-  const double values = static_cast<double>(this->Resolution[0]) * this->Resolution[1] *
-                        static_cast<double>(signs.size());
-  if (values > MaximumValues)
+  const double places = static_cast<double>(this->Resolution[0]) * this->Resolution[1];
+  if (places * static_cast<double>(signs.size()) > MaximumValues)
   {
     throw Error("Resolution",
       "the map would hold more than 100 million values, places times " +
         std::to_string(signs.size()) + " signs",
       "Give fewer places");
   }
+
+  smokevis::RequireMemory("Resolution", "the map",
+    places * (PlaceBytes + SignBytes * static_cast<double>(signs.size())), "Give fewer places");
 
   const smokevis::Medium& smoke = view.TheScene().Smoke();
   double bounds[6] = {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y,
@@ -196,9 +196,9 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     bounds[0] + 0.5 * options.StepX, bounds[2] + 0.5 * options.StepY, bounds[4] + this->EyeHeight};
   options.ContrastThreshold = this->ContrastThreshold;
   options.CutOff = this->CutOff;
-  options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  options.Eye = eye;
   options.ThresholdSpread = this->ThresholdSpread;
-  options.State = {this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  options.State = state;
   smokevis::FloorMap map;
   smokevis::RunWithProgress(this, 0.05, 0.98,
     [&](smokevis::Progress& progress)

@@ -4,6 +4,7 @@
 #include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
 #include "SceneBuilder.h"
 #include "SurfaceRefiner.h"
@@ -36,6 +37,12 @@ constexpr double ReferenceWavelength = 633.0;
 constexpr double DefaultAlbedo = 0.3;
 /// Patches along the diagonal of all geometry.
 constexpr double AutomaticPatches = 50.0;
+/// What the solver and the output take for each smoke cell and surface patch, at their peak
+/// [bytes]: so much at all, and so much more a band (measured: 250 with one band, 560 with three).
+constexpr double CellBytes = 160.0;
+constexpr double CellBandBytes = 130.0;
+constexpr double PatchBytes = 500.0;
+constexpr double PatchBandBytes = 280.0;
 /// Ratio of sizes beyond which surfaces and smoke are likely in different units.
 constexpr double SuspiciousRatio = 100.0;
 
@@ -311,6 +318,23 @@ void vtkSmokeLightField::Solve(
     }
   }
   report.push_back({"Albedo", options.Albedo, why});
+
+  double cells = 0.0;
+  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+  {
+    cells += static_cast<double>(block.Grid->GetNumberOfCells());
+  }
+  double count = 0.0;
+  for (const SurfaceBlock* const block : patches)
+  {
+    count += static_cast<double>(block->Mesh->GetNumberOfCells());
+  }
+  smokevis::RequireMemory("light field",
+    "the light of " + std::to_string(std::llround(cells)) + " smoke cells and " +
+      std::to_string(std::llround(count)) + " surface patches",
+    cells * (CellBytes + CellBandBytes * this->Bands) +
+      count * (PatchBytes + PatchBandBytes * this->Bands),
+    "Give coarser smoke, one band or a larger PatchSize");
 
   smokevis::SceneDescription description = smokevis::BuildScene(blocks, options);
   if (this->Bands == RGB && smokevis::BandsAreEqual(description))

@@ -3,9 +3,11 @@
 #include "Contrast.h"
 #include "Errors.h"
 #include "Eye.h"
+#include "EyeProperties.h"
 #include "ImageTracer.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
 #include "ThinLens.h"
@@ -17,7 +19,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -45,6 +46,9 @@ namespace
 /// In metres.
 constexpr double Millimetre = 1e-3;
 constexpr std::int64_t MaximumPixels = 100000000;
+/// Of all arrays: the tracer's (two where the lens blurs), the outputs' and the photograph's.
+constexpr double PixelBytes = 100.0;
+constexpr double BlurredPixelBytes = 140.0;
 /// Threshold of observers and its spread, for the share of them who see the sign.
 constexpr double Threshold = 0.2;
 constexpr double ThresholdSpread = 0.04;
@@ -204,9 +208,6 @@ void vtkVisibilityImage::CheckProperties() const
     "it is not positive", "Give it in mm");
   check(positive(this->FNumber), "FNumber", "it is not positive", "Give 2.8, for example");
   check(notNegative(this->Margin), "Margin", "it is negative", "Give a share from 0");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
   check(this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
   check(notNegative(this->FocusDistance), "FocusDistance", "it is negative",
     "Give metres from the sensor, or 0 for infinity");
@@ -215,24 +216,23 @@ void vtkVisibilityImage::CheckProperties() const
   check(positive(this->ISO), "ISO", "it is not positive", "Give 100, for example");
   check(notNegative(this->ReadNoise), "ReadNoise", "it is negative",
     "Give a share of the saturating exposure, or 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(
-    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
-  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
-    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
 void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
 {
   this->CheckProperties();
+  const smokevis::Adaptation state{
+    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  smokevis::Observer observer = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   const smokevis::ResponseCurve response = this->ResponseFile && *this->ResponseFile
                                              ? smokevis::ResponseCurve::Read(this->ResponseFile)
                                              : smokevis::ResponseCurve();
   double sensor[2];
   int size[2];
   this->UseModel(sensor, size);
+  smokevis::RequireMemory("ImageSize", "the image",
+    (this->LensBlur ? BlurredPixelBytes : PixelBytes) * size[0] * size[1], "Give a smaller image");
   const smokevis::ThinLens lens =
     this->FocusDistance > 0.0
       ? smokevis::ThinLens::Focused(Millimetre * this->FocalLength, this->FocusDistance)
@@ -269,11 +269,10 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     camera.FocusDistance = lens.ObjectDistance;
   }
 
-  const double acuity = vtkMath::RadiansFromDegrees(this->Acuity / 60.0);
   smokevis::TracedImage image;
   smokevis::RunWithProgress(this, 0.1, 0.95,
     [&](smokevis::Progress& progress)
-    { image = smokevis::TraceImage(view, camera, acuity, progress); });
+    { image = smokevis::TraceImage(view, camera, observer.Acuity, progress); });
 
   output->SetOrigin(0.0, 0.0, 0.0);
   output->SetSpacing(1.0, 1.0, 1.0);
@@ -305,12 +304,9 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
 
   const int measured = this->TargetSign >= 0 ? this->TargetSign : LargestSign(image.SignIds);
   smokevis::SignMeasurement result;
-  smokevis::Observer observer{this->DarkLuminance, acuity};
   if (measured >= 0)
   {
     sign = FindSign(view, measured);
-    const smokevis::Adaptation state{
-      this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
     std::optional<smokevis::GlareSources> glare;
     if (this->Glare)
     {
@@ -340,8 +336,9 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   number("UnlitLuminance", {result.UnlitLuminance});
   number("VisibleFraction", {result.VisibleFraction});
   number("OpticalDepthToSign", {result.OpticalDepth});
-  number("SensorIlluminance",
-    {0.25 * vtkMath::Pi() * result.MeanLuminance / (this->FNumber * this->FNumber)});
+  const smokevis::ExposureSettings exposure{this->FNumber, lens.Magnification(), this->ExposureTime,
+    this->ISO, this->ReadNoise, static_cast<std::uint64_t>(this->NoiseSeed)};
+  number("SensorIlluminance", {smokevis::SensorIlluminance(result.MeanLuminance, exposure)});
   number("VisibleProbability",
     {result.InView
         ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
@@ -356,11 +353,8 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   number("Magnification", {lens.Magnification()});
 
   const bool colour = this->Implementation->Input.Bands() == 3;
-  const smokevis::Photograph taken =
-    smokevis::TakePhotograph(colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1,
-      {this->FNumber, lens.Magnification(), this->ExposureTime, this->ISO, this->ReadNoise,
-        static_cast<std::uint64_t>(this->NoiseSeed)},
-      response);
+  const smokevis::Photograph taken = smokevis::TakePhotograph(
+    colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1, exposure, response);
   number("ShutterTime", {taken.Time});
   photograph->CopyStructure(output);
   photograph->GetFieldData()->DeepCopy(output->GetFieldData());

@@ -1,6 +1,7 @@
 #include "vtkVisibilityOverTime.h"
 
 #include "Errors.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "StepWalk.h"
 #include "VisibilityHistory.h"
@@ -18,6 +19,11 @@
 #include <vtkPointData.h>
 
 vtkStandardNewMacro(vtkVisibilityOverTime);
+
+struct vtkVisibilityOverTime::Internals
+{
+  smokevis::KeptOutput Kept;
+};
 
 namespace
 {
@@ -68,6 +74,22 @@ smokevis::VisibilityFrame Frame(vtkImageData* map, double time)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+vtkVisibilityOverTime::vtkVisibilityOverTime() : Implementation(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkVisibilityOverTime::~vtkVisibilityOverTime() = default;
+
+//------------------------------------------------------------------------------
+int vtkVisibilityOverTime::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
 
 //------------------------------------------------------------------------------
 int vtkVisibilityOverTime::RequestInformation(
@@ -164,15 +186,23 @@ int vtkVisibilityOverTime::RequestData(
   try
   {
     this->Compute(inputVector[0], output);
+    this->Implementation->Kept.Keep(outputVector, 0);
+    return 1;
+  }
+  catch (const smokevis::StoppedUpstream&)
+  {
+    this->Implementation->Kept.Restore(this, outputVector, 0);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

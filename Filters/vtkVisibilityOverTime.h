@@ -32,6 +32,7 @@
 #include "SmokeFiltersModule.h"
 #include <vtkImageAlgorithm.h>
 
+#include <memory>
 #include <vector>
 
 class SMOKEFILTERS_EXPORT vtkVisibilityOverTime : public vtkImageAlgorithm
@@ -78,8 +79,11 @@ public:
   ///@}
 
 protected:
-  vtkVisibilityOverTime() = default;
-  ~vtkVisibilityOverTime() override = default;
+  vtkVisibilityOverTime();
+  ~vtkVisibilityOverTime() override;
+
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
 
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -96,6 +100,9 @@ private:
   double TimeRange[2] = {1.0, -1.0};
   int Stride = 1;
   double ContrastThreshold = -1.0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
 };
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "Errors.h"
 #include "KeptOutput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
 
 #include "vtkDataSet.h"
@@ -47,6 +48,8 @@ enum Port
 
 // FDS's default single-scattering albedo of smoke.
 constexpr double DefaultAlbedo = 0.3;
+// Memory that a mesh's arrays and the buffers for reading them take [bytes a cell].
+constexpr double CellBytes = 24.0;
 // Share of the flames' light that may go astray before it is worth a warning.
 constexpr double TolerableLoss = 0.01;
 
@@ -413,6 +416,14 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   Outcome outcome = Outcome::Good;
   try
   {
+    double cells = 0.0;
+    for (int i = pieces.First(); i < pieces.End(); ++i)
+    {
+      const smokevis::SmvMesh& mesh = index.Meshes[i];
+      cells += static_cast<double>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2);
+    }
+    smokevis::RequireMemory(std::string("run '") + this->FileName + "'", "its smoke",
+      CellBytes * cells, "Check that the file is whole, or read the run on more machines");
     smokevis::RunWithProgress(this, 0.0, 0.9,
       [&](smokevis::Progress& progress)
       { meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(), progress); });

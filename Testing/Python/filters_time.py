@@ -79,6 +79,35 @@ assert set(scenes.point_array(summary, "FirstSign")) == {4}
 assert time_steps(over_time) is None
 assert scenes.field(summary, "ContrastThreshold") == 0.2
 
+# --- work that is given up --------------------------------------------------------------------------------
+# Who stops the map half-way through the series gets the former answer, not one of half a series.
+before = available.copy()
+steps_done = []
+
+
+def stop_at_third(algorithm, _):
+    steps_done.append(1)
+    if len(steps_done) == 3:
+        algorithm.SetAbortExecute(1)
+
+
+floor_map.EyeHeight = 1.1
+algorithm = floor_map.GetClientSideObject()
+observer = algorithm.AddObserver("StartEvent", stop_at_third)
+with scenes.Messages() as messages:
+    over_time.UpdatePipeline()
+assert not messages.text, messages.text
+assert len(steps_done) == 3, len(steps_done)
+kept = over_time.GetClientSideObject().GetOutputDataObject(0)
+assert numpy.array_equal(scenes.point_array(kept, "AvailableTime"), before)
+algorithm.RemoveObserver(observer)
+algorithm.SetAbortExecute(0)
+# ParaView's client would not ask again of its own accord.
+over_time.GetClientSideObject().Update()
+done = over_time.GetClientSideObject().GetOutputDataObject(0)
+assert not numpy.array_equal(scenes.point_array(done, "AvailableTime"), before)
+floor_map.EyeHeight = 1.0
+
 # --- errors -------------------------------------------------------------------------------------------
 steady = simple.FloorMapOfVisibility(LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), EyeHeight=0.5)
 for properties, words in (({"FloorMap": steady}, "it has no time steps"),

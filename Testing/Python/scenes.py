@@ -145,6 +145,8 @@ class Messages:
         vtkOutputWindow.SetInstance(self.before)
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
         self.text = self.window.GetOutput()
+        if isinstance(self.text, bytes):  # A message that quotes a damaged file.
+            self.text = self.text.decode("utf-8", "replace")
 
     def count(self, kind, class_name):
         """Messages of a kind, "ERROR" or "Warning", that objects of a class gave."""
