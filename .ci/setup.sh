@@ -3,7 +3,7 @@
 
 smokevisibility_packages=(
   cmake g++ clang ninja-build git
-  paraview paraview-dev python3-paraview python3-numpy python3-matplotlib
+  paraview paraview-dev python3-paraview python3-numpy python3-scipy python3-matplotlib
   qtbase5-dev qttools5-dev libqt5svg5-dev libqt5x11extras5-dev libqt5opengl5-dev
   qtxmlpatterns5-dev-tools libutfcpp-dev python3-dev python3-mpi4py libopenmpi-dev openmpi-bin libxml2-dev
   libhdf5-dev libhdf5-openmpi-dev libnetcdf-dev libgdal-dev libcgns-dev libboost-dev libtheora-dev

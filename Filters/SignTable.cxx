@@ -14,6 +14,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <sstream>
 
 namespace smokevis
 {
@@ -54,6 +56,21 @@ std::string ListOfColumns()
     list += (list.empty() ? "" : ", ") + column;
   }
   return list;
+}
+
+/// Throws Error where two columns have one name: VTK would keep the last only.
+void CheckHeader(const std::string& line, const std::string& where)
+{
+  std::set<std::string> names;
+  std::istringstream fields(line);
+  for (std::string field; std::getline(fields, field, ',');)
+  {
+    field = Lower(Trimmed(field));
+    if (!field.empty() && !names.insert(field).second)
+    {
+      throw Error(where, "there are two columns '" + field + "'", "Leave one of them out");
+    }
+  }
 }
 
 /// One row of the table, asked by column.
@@ -202,6 +219,7 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
     }
     text += line + (i == 0 ? "," + Surplus : "") + "\n";
   }
+  CheckHeader(lines.front().Text, place(0));
   vtkNew<vtkDelimitedTextReader> reader;
   vtkNew<ErrorCollector> errors;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -227,8 +245,8 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
     const bool known = std::find(Columns.begin(), Columns.end(), name) != Columns.end();
     if (!known && name != Surplus)
     {
-      throw Error(
-        place(0), "the column '" + name + "' is not known", "The columns are " + ListOfColumns());
+      throw Error(place(0), "the column '" + name + "' is not known",
+        "Separate columns by commas. They are " + ListOfColumns());
     }
     columns[name] = column;
   }

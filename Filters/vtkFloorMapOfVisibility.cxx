@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "EyeProperties.h"
 #include "FloorMap.h"
+#include "Identity.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
@@ -147,13 +148,12 @@ void vtkFloorMapOfVisibility::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
-smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(vtkDataObject* input)
+smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View& view) const
 {
   this->CheckProperties();
   const smokevis::Adaptation state{
     this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
   const smokevis::Observer eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
-  const smokevis::View& view = this->Implementation->Input.Get(input);
   const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
   if (signs.empty())
   {
@@ -213,20 +213,20 @@ smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(vtkDataObject* input)
 void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
 {
   const smokevis::Ranks ranks;
+  const smokevis::View* view = nullptr;
   smokevis::FloorMapOptions options;
   smokevis::FloorMap map;
   const auto start = std::chrono::steady_clock::now();
   ranks.Together(this,
     [&]
     {
-      options = this->Prepare(input);
+      view = &this->Implementation->Input.Get(input);
+      options = this->Prepare(*view);
       const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
       std::tie(options.First, options.End) = ranks.Share(places);
       smokevis::RunWithProgress(this, 0.05, 0.98,
-        [&](smokevis::Progress& progress) {
-          map =
-            smokevis::ComputeFloorMap(this->Implementation->Input.Get(input), options, progress);
-        });
+        [&](smokevis::Progress& progress)
+        { map = smokevis::ComputeFloorMap(*view, options, progress); });
     });
   const std::vector<double> seconds =
     ranks.Each(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -249,8 +249,7 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     map.Report.push_back({"seconds of process " + std::to_string(rank), seconds[rank],
       "for " + std::to_string(end - first) + " places"});
   }
-  const std::vector<smokevis::Sign>& signs =
-    this->Implementation->Input.Get(input).TheScene().Lights().Signs();
+  const std::vector<smokevis::Sign>& signs = view->TheScene().Lights().Signs();
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);
@@ -279,7 +278,9 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   output->GetFieldData()->AddArray(ids);
   smokevis::AddFieldTexts(*output, "SignNames", names);
   smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
-  smokevis::AddWorkReport(*output, map.Report);
+  std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
+  report.insert(report.end(), map.Report.begin(), map.Report.end());
+  smokevis::AddWorkReport(*output, report);
 }
 
 //------------------------------------------------------------------------------

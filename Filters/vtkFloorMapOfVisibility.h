@@ -10,7 +10,9 @@
  * lit cells as it arrives [cd/m2]) and `VisibleFraction`, float, a component a sign, named after
  * it;
  * - `VisibleProbability`, float, the share of observers who see the best sign, the contrast at
- * which it is lost being normally distributed over them (ContrastThreshold, ThresholdSpread);
+ * which it is lost being normally distributed over them (ContrastThreshold, ThresholdSpread); what
+ * varies over a plate for another reason than its pattern, such as a lamp at its side, is contrast
+ * too;
  * - `EyeLuminance`, float [cd/m2], what counts as the eye's own noise when it looks at the best
  * sign: DarkLuminance and what adaptation and glare add;
  * - `OpticalDepth` and `JinVisibility` (3 / mean extinction [m]), float, along the line to the best
@@ -31,6 +33,7 @@
 namespace smokevis
 {
 struct FloorMapOptions;
+class View;
 }
 
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
@@ -171,7 +174,7 @@ private:
 
   void CheckProperties() const;
   /// Checks what is asked for against the light field.
-  smokevis::FloorMapOptions Prepare(vtkDataObject* input);
+  smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;

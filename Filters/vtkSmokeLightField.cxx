@@ -9,6 +9,7 @@
 #include "PipelineProgress.h"
 #include "Ranks.h"
 #include "SceneBuilder.h"
+#include "SceneKeeper.h"
 #include "SurfaceRefiner.h"
 #include "WholeInput.h"
 
@@ -189,10 +190,21 @@ void DivideBlocks(vtkPartitionedDataSetCollection& output, const std::pair<int, 
 //------------------------------------------------------------------------------
 struct vtkSmokeLightField::Internals
 {
+  /// How the light of the last scene was solved, and the blocks that hold it; none: no blocks.
+  struct SolvedLight
+  {
+    SceneBlocks Blocks;
+    double Tolerance = 0.0;
+    int Seed = 0;
+    int Bands = 0;
+  };
+
   smokevis::KeptOutput Kept;
   /// What Kept was made of: the inputs, and the filter's properties as of then.
   std::vector<std::uint64_t> MadeOf;
   vtkMTimeType MadeWith = 0;
+  smokevis::SceneKeeper Scenes;
+  SolvedLight Solved;
 };
 
 //------------------------------------------------------------------------------
@@ -298,6 +310,27 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
+void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
+  const SceneBlocks& blocks, std::vector<smokevis::WorkItem>& report)
+{
+  const auto scene = this->Implementation->Scenes.Make(std::move(description));
+  report.push_back({"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+    scene->SharesShapes() ? "those of the light field before hold the same shapes"
+                          : "shapes are new"});
+  smokevis::LightFieldOptions solver;
+  solver.Tolerance = this->Tolerance;
+  solver.Seed = static_cast<std::uint64_t>(this->Seed);
+  // TBB warns on the console about threads that the machine does not have.
+  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
+  smokevis::LightField field;
+  smokevis::RunWithProgress(this, 0.02, 0.98,
+    [&](smokevis::Progress& progress)
+    { field = smokevis::SolveLightField(*scene, solver, progress); });
+  report.insert(report.end(), field.Report.begin(), field.Report.end());
+  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+}
+
+//------------------------------------------------------------------------------
 void vtkSmokeLightField::Solve(
   vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
 {
@@ -395,18 +428,20 @@ void vtkSmokeLightField::Solve(
     description.Bands = 1;
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
   }
-  const smokevis::Scene scene(std::move(description));
-  smokevis::LightFieldOptions solver;
-  solver.Tolerance = this->Tolerance;
-  solver.Seed = static_cast<std::uint64_t>(this->Seed);
-  // TBB warns on the console about threads that the machine does not have.
-  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
-  smokevis::LightField field;
-  smokevis::RunWithProgress(this, 0.02, 0.98,
-    [&](smokevis::Progress& progress)
-    { field = smokevis::SolveLightField(scene, solver, progress); });
-  report.insert(report.end(), field.Report.begin(), field.Report.end());
-  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+  Internals::SolvedLight& last = this->Implementation->Solved;
+  if (last.Tolerance == this->Tolerance && last.Seed == this->Seed && last.Bands == this->Bands &&
+      this->Implementation->Scenes.IsLast(description) &&
+      smokevis::ShareLightField(last.Blocks, blocks))
+  {
+    report.push_back({"light fields solved", 0.0,
+      "smoke, surfaces and emitters are those of the light field before, which is kept"});
+  }
+  else
+  {
+    last = {};
+    this->SolveBlocks(std::move(description), blocks, report);
+    last = {blocks, this->Tolerance, this->Seed, this->Bands};
+  }
 
   output->SetNumberOfPartitionedDataSets(3);
   AddPartitions(output, 0, "Smoke", blocks.Smoke);
@@ -463,10 +498,10 @@ int vtkSmokeLightField::RequestData(
   const smokevis::Ranks ranks;
   try
   {
-    // A parallel run asks for the whole and for pieces in turn, for which readers read anew: the
-    // work is done once for the same contents.
+    // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
+    // the same contents its former output is divided in another way, and nothing else is done.
     std::vector<std::uint64_t> contents;
-    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    for (int port = 0; port < this->GetNumberOfInputPorts() && ranks.Count() > 1; ++port)
     {
       for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
       {
@@ -474,8 +509,8 @@ int vtkSmokeLightField::RequestData(
         contents.push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
       }
     }
-    const bool isNew =
-      !own.Kept.Has(0) || own.MadeOf != contents || own.MadeWith != this->GetMTime();
+    const bool isNew = ranks.Count() == 1 || !own.Kept.Has(0) || own.MadeOf != contents ||
+                       own.MadeWith != this->GetMTime();
     if (ranks.Most(isNew ? 1 : 0) > 0)
     {
       own.MadeWith = 0;

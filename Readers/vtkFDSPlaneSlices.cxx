@@ -85,12 +85,7 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
   {
     std::vector<float> later;
     plane.File->ReadFrame(mix.Frame[1], later);
-    const auto before = static_cast<float>(mix.Weight[0]);
-    const auto after = static_cast<float>(mix.Weight[1]);
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = before * values[i] + after * later[i];
-    }
+    Mix(mix, later, values);
   }
 
   const SmvMesh& mesh = index_.Meshes[slice.Mesh];

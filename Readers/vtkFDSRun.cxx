@@ -65,6 +65,7 @@ void FDSRun::Load(const Choice& choice)
     }
   }
   slices_ = std::make_unique<FDSPlaneSlices>(*index);
+  boundary_ = std::make_unique<FDSBoundary>(*index);
   index_ = std::move(index);
   choice_ = choice;
   stamp_ = stamp;

@@ -5,6 +5,7 @@
 #include "ExtinctionSource.h"
 #include "FlameSource.h"
 #include "SmvFile.h"
+#include "vtkFDSBoundary.h"
 #include "vtkFDSPlaneSlices.h"
 
 #include "vtkPolyData.h"
@@ -56,6 +57,7 @@ public:
   FlameSource* Heat() const { return heat_.get(); }
 
   FDSPlaneSlices& Slices() const { return *slices_; }
+  FDSBoundary& Boundary() const { return *boundary_; }
 
   /// The time steps [s], increasing: the smoke's frames or, without any, changes of the walls.
   std::vector<double> Times() const;
@@ -81,6 +83,7 @@ private:
   std::unique_ptr<FlameSource> flames_;
   std::unique_ptr<FlameSource> heat_;
   std::unique_ptr<FDSPlaneSlices> slices_;
+  std::unique_ptr<FDSBoundary> boundary_;
   std::set<std::string> said_;
   vtkSmartPointer<vtkPolyData> geometry_;
   std::vector<bool> geometryChanges_;

@@ -12,6 +12,7 @@
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
 
+#include "vtkDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -19,6 +20,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -40,6 +42,7 @@ enum Port
   GeometryPort,
   DevicesPort,
   SlicesPort,
+  BoundaryPort,
   NumberOfPorts
 };
 
@@ -92,6 +95,7 @@ void vtkFDSSmokeReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FlameModel: " << this->FlameModel << "\n";
   os << indent << "LuminousEfficacy: " << this->LuminousEfficacy << "\n";
   os << indent << "ReadPlaneSlices: " << this->ReadPlaneSlices << "\n";
+  os << indent << "ReadBoundary: " << this->ReadBoundary << "\n";
 }
 
 //------------------------------------------------------------------------------------------------
@@ -128,7 +132,8 @@ void vtkFDSSmokeReader::SetLuminousEfficacy(double value)
 int vtkFDSSmokeReader::FillOutputPortInformation(int port, vtkInformation* info)
 {
   static constexpr const char* types[NumberOfPorts] = {"vtkPartitionedDataSetCollection",
-    "vtkPolyData", "vtkTable", "vtkPartitionedDataSetCollection"};
+    "vtkPolyData", "vtkTable", "vtkPartitionedDataSetCollection",
+    "vtkPartitionedDataSetCollection"};
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -305,6 +310,46 @@ int vtkFDSSmokeReader::RequestData(
 }
 
 //------------------------------------------------------------------------------------------------
+template <class Source, class Parts, class EntryOf>
+void vtkFDSSmokeReader::ReadBlocks(
+  vtkInformation* outInfo, const char* what, Source& source, Parts& parts, EntryOf&& entryOf)
+{
+  const smokevis::SmvFile& index = this->Internals->Run.Index();
+  const double time = this->SceneTime(outInfo);
+  const auto interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
+  const smokevis::FDSPieces pieces(index, outInfo);
+  smokevis::FDSBlocks blocks;
+  std::string problems;
+  for (auto& part : parts)
+  {
+    const auto& entry = entryOf(part);
+    vtkSmartPointer<vtkDataSet> data;
+    std::error_code missing;
+    if (entry.Mesh >= pieces.First() && entry.Mesh < pieces.End() &&
+        std::filesystem::exists(index.Resolve(entry.File), missing))
+    {
+      try
+      {
+        data = source.Read(part, time, interpolation);
+      }
+      catch (const std::exception& error)
+      {
+        problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+      }
+    }
+    blocks.Add(part.Name, entry.Mesh, data);
+  }
+  if (!problems.empty())
+  {
+    vtkWarningMacro(<< "Some " << what << " are left out: " << problems);
+  }
+  vtkNew<vtkFieldData> fields;
+  smokevis::AddField(fields, "Time", time);
+  smokevis::AddField(fields, "CHID", index.Chid);
+  blocks.Publish(pieces, fields, time, outInfo);
+}
+
+//------------------------------------------------------------------------------------------------
 void vtkFDSSmokeReader::ReadPort(int port, vtkInformation* outInfo)
 {
   switch (port)
@@ -318,8 +363,23 @@ void vtkFDSSmokeReader::ReadPort(int port, vtkInformation* outInfo)
   case DevicesPort:
     this->ReadDevices(outInfo);
     break;
+  case SlicesPort:
+    if (this->ReadPlaneSlices)
+    {
+      smokevis::FDSPlaneSlices& slices = this->Internals->Run.Slices();
+      this->ReadBlocks(
+        outInfo, "2-D slices", slices, slices.Planes(),
+        [](const auto& plane) -> const auto& { return *plane.Slice; });
+    }
+    break;
   default:
-    this->ReadSlices(outInfo);
+    if (this->ReadBoundary)
+    {
+      smokevis::FDSBoundary& boundary = this->Internals->Run.Boundary();
+      this->ReadBlocks(
+        outInfo, "boundary files", boundary, boundary.Quantities(),
+        [](const auto& quantity) -> const auto& { return *quantity.Entry; });
+    }
   }
 }
 
@@ -475,47 +535,4 @@ void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
     vtkWarningMacro(<< missing << ": the device table is missing, so Devices is empty. Copy the "
                     << "file that the index names beside the index.");
   }
-}
-
-//------------------------------------------------------------------------------------------------
-void vtkFDSSmokeReader::ReadSlices(vtkInformation* outInfo)
-{
-  if (!this->ReadPlaneSlices)
-  {
-    return;
-  }
-  smokevis::FDSRun& run = this->Internals->Run;
-  const smokevis::SmvFile& index = run.Index();
-  const double time = this->SceneTime(outInfo);
-  const auto interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
-  const smokevis::FDSPieces pieces(index, outInfo);
-  smokevis::FDSBlocks blocks;
-  std::string problems;
-  for (smokevis::FDSPlaneSlices::Plane& plane : run.Slices().Planes())
-  {
-    const int mesh = plane.Slice->Mesh;
-    vtkSmartPointer<vtkRectilinearGrid> grid;
-    std::error_code missing;
-    if (mesh >= pieces.First() && mesh < pieces.End() &&
-        std::filesystem::exists(index.Resolve(plane.Slice->File), missing))
-    {
-      try
-      {
-        grid = run.Slices().Read(plane, time, interpolation);
-      }
-      catch (const std::exception& error)
-      {
-        problems += (problems.empty() ? "" : "\n") + std::string(error.what());
-      }
-    }
-    blocks.Add(plane.Name, mesh, grid);
-  }
-  if (!problems.empty())
-  {
-    vtkWarningMacro(<< "Some 2-D slices are left out: " << problems);
-  }
-  vtkNew<vtkFieldData> fields;
-  smokevis::AddField(fields, "Time", time);
-  smokevis::AddField(fields, "CHID", index.Chid);
-  blocks.Publish(pieces, fields, time, outInfo);
 }

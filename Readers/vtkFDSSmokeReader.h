@@ -48,6 +48,11 @@
  * 2-D slice of each mesh whose file is there, with an array named after the quantity: on the points
  * of a node-centred slice, on the cells of a cell-centred one, at the cells' centres.
  *
+ * Output 4, Boundary, is a vtkPartitionedDataSetCollection with a vtkPolyData for each boundary
+ * file
+ * (.bf) that is there: the walls of one mesh as they are at that time, with an array named after
+ * the quantity, on the points or, where FDS wrote cells, on the cells.
+ *
  * The time steps are the frame times of all meshes. A requested time gives the nearest frame, the
  * earlier of two equally near, or is interpolated; obstructions are shown as they are at that time.
  *
@@ -200,6 +205,15 @@ public:
   vtkBooleanMacro(ReadPlaneSlices, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output Boundary is read. Default on.
+   */
+  vtkSetMacro(ReadBoundary, bool);
+  vtkGetMacro(ReadBoundary, bool);
+  vtkBooleanMacro(ReadBoundary, bool);
+  ///@}
+
 protected:
   vtkFDSSmokeReader();
   ~vtkFDSSmokeReader() override;
@@ -226,7 +240,10 @@ private:
   void ReadSmoke(vtkInformation* outInfo);
   void ReadGeometry(vtkInformation* outInfo);
   void ReadDevices(vtkInformation* outInfo);
-  void ReadSlices(vtkInformation* outInfo);
+  /// Reads an output with a block a file, of which missing ones make empty blocks.
+  template <class Source, class Parts, class EntryOf>
+  void ReadBlocks(
+    vtkInformation* outInfo, const char* what, Source& source, Parts& parts, EntryOf&& entryOf);
 
   char* FileName = nullptr;
   double TransparencyThreshold = 0.5;
@@ -238,6 +255,7 @@ private:
   int FlameModel = FLAMES_BY_HEAT_RELEASE;
   double LuminousEfficacy = 0.05;
   bool ReadPlaneSlices = true;
+  bool ReadBoundary = true;
 
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -121,6 +121,15 @@ struct SmvPlot3D
   std::array<SmvQuantity, 5> Quantities;
 };
 
+/// One boundary file (.bf): a quantity on the walls of a mesh.
+struct SmvBoundary
+{
+  int Mesh = 0;
+  bool CellCentred = false;
+  std::string File;
+  SmvQuantity Quantity;
+};
+
 /// One file of complex geometry: solids (.ge) or the faces that they cut out of cells (.gcf).
 struct SmvGeometry
 {
@@ -167,6 +176,7 @@ public:
   std::vector<SmvSlice> Slices;
   std::vector<SmvSmoke3D> Smoke3D;
   std::vector<SmvPlot3D> Plot3D;
+  std::vector<SmvBoundary> Boundaries;
   std::vector<SmvGeometry> Geometries;
   std::vector<SmvDevice> Devices;
   /// Text tables (type such as `devc` or `hrr`, and file name).

@@ -165,6 +165,10 @@ void SmvParser::Parse(std::string_view line)
   {
     this->ParsePlot3D(rest);
   }
+  else if (word == "BNDF" || word == "BNDC")
+  {
+    this->ParseBoundary(rest, word == "BNDC");
+  }
   else if (word == "GEOM" || word == "BGEOM" || word == "CGEOM")
   {
     // Lines about the single bodies follow the file, indented.

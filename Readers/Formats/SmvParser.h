@@ -50,6 +50,7 @@ private:
   void ParseSlice(std::string_view line, bool cellCentred);
   void ParseSmoke3D(std::string_view line);
   void ParsePlot3D(std::string_view line);
+  void ParseBoundary(std::string_view line, bool cellCentred);
   void ParseDevice();
   void ParseEvent(std::string_view line, bool obstruction, bool on);
   void LeaveOutChange(const std::string& what);

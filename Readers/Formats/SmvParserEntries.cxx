@@ -272,6 +272,22 @@ void SmvParser::ParsePlot3D(std::string_view line)
 }
 
 //------------------------------------------------------------------------------------------------
+void SmvParser::ParseBoundary(std::string_view line, bool cellCentred)
+{
+  const auto mesh = SplitIntegers(line, 1, 6);
+  if (mesh.empty())
+  {
+    this->Fail("a boundary file needs its mesh number");
+  }
+  SmvBoundary boundary;
+  boundary.Mesh = this->MeshNumber(mesh[0], "a boundary file");
+  boundary.CellCentred = cellCentred;
+  boundary.File = this->NextText();
+  boundary.Quantity = this->NextQuantity();
+  index_.Boundaries.push_back(std::move(boundary));
+}
+
+//------------------------------------------------------------------------------------------------
 void SmvParser::ParseDevice()
 {
   SmvDevice device;

@@ -213,6 +213,7 @@ def check_errors(folder, image, table):
                        ("cx,cy,cz\n", "holds no sign"),
                        ("cx;cy;cz\n1;2;3\n", "line 1: the column"),
                        ("cx,cy\n1,2\n", "line 1: the column cz is missing"),
+                       ("cx,cy, CX,cz\n1,2,3,4\n", "line 1: there are two columns 'cx'"),
                        ("cx,cy,cz,bars\n1,2,3,9\n\n1,2,3,9.5\n", "line 4: column bars holds '9.5'"),
                        ("cx,cy,cz\n1,2,3\n1,,3\n", "line 3: column cy is blank"),
                        ("cx,cy,cz\n1,2,nan\n", "line 2: column cz holds 'nan'"),
