@@ -12,22 +12,14 @@
 #include <vtkNew.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+
 namespace smokevis
 {
 namespace
 {
 
 const char* const Remedy = "Give the output of SmokeLightField, or a file that it was saved to";
-
-/// Set when the static objects of this library are destroyed, which is before Embree's are.
-bool processIsEnding = false;
-
-struct EndOfProcess
-{
-  ~EndOfProcess() { processIsEnding = true; }
-};
-
-const EndOfProcess endOfProcess;
 
 double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
 {
@@ -44,7 +36,7 @@ double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
 //------------------------------------------------------------------------------
 LightFieldInput::~LightFieldInput()
 {
-  if (processIsEnding)
+  if (ProcessIsEnding())
   {
     static_cast<void>(this->View_.release());
   }
@@ -60,10 +52,15 @@ const View& LightFieldInput::Get(vtkDataObject* input)
   const vtkMTimeType time = std::max(input->GetMTime(), input->GetUpdateTime());
   if (!this->View_ || this->Input_ != input || this->InputTime_ != time)
   {
-    this->View_.reset();
+    // Set only once all has gone well.
+    this->Input_ = nullptr;
     this->Load(input);
     this->Input_ = input;
     this->InputTime_ = time;
+  }
+  else
+  {
+    this->Report_ = {{"views set up", 0.0, "the light field did not change"}};
   }
   return *this->View_;
 }
@@ -120,10 +117,30 @@ void LightFieldInput::Load(vtkDataObject* input)
     description.Bands = 1;
   }
   const int bands = description.Bands;
-  auto scene = std::make_shared<const Scene>(std::move(description));
-  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
   this->SignNames_ = ReadSignNames(blocks.Emitters);
+  const std::vector<vtkDataArray*> arrays = LightArrays(blocks);
+  const bool sameLight =
+    std::equal(arrays.begin(), arrays.end(), this->Light_.begin(), this->Light_.end(),
+      [](vtkDataArray* array, const LightArray& last)
+      { return array && array == last.Array && array->GetMTime() == last.Time; });
+  if (this->View_ && sameLight && this->Scenes_.IsLast(description))
+  {
+    this->Report_ = {{"views set up", 0.0, "the light field holds what it held before"}};
+    return;
+  }
+  this->View_.reset();
+  this->Light_.clear();
+  auto scene = this->Scenes_.Make(std::move(description));
+  this->Report_ = {{"views set up", 1.0, "the light field is another one"},
+    {"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+      scene->SharesShapes() ? "those of the light field before hold the same shapes"
+                            : "shapes are new"}};
+  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
+  for (vtkDataArray* const array : arrays)
+  {
+    this->Light_.push_back({array, array->GetMTime()});
+  }
 }
 
 //------------------------------------------------------------------------------

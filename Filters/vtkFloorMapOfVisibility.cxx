@@ -231,7 +231,9 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   output->GetFieldData()->AddArray(ids);
   smokevis::AddFieldTexts(*output, "SignNames", names);
   smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
-  smokevis::AddWorkReport(*output, map.Report);
+  std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
+  report.insert(report.end(), map.Report.begin(), map.Report.end());
+  smokevis::AddWorkReport(*output, report);
 }
 
 //------------------------------------------------------------------------------

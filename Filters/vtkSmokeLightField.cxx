@@ -7,6 +7,7 @@
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
 #include "SceneBuilder.h"
+#include "SceneKeeper.h"
 #include "SurfaceRefiner.h"
 #include "WholeInput.h"
 
@@ -147,7 +148,18 @@ void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, 
 //------------------------------------------------------------------------------
 struct vtkSmokeLightField::Internals
 {
+  /// How the light of the last scene was solved, and the blocks that hold it; none: no blocks.
+  struct SolvedLight
+  {
+    SceneBlocks Blocks;
+    double Tolerance = 0.0;
+    int Seed = 0;
+    int Bands = 0;
+  };
+
   smokevis::KeptOutput Kept;
+  smokevis::SceneKeeper Scenes;
+  SolvedLight Solved;
 };
 
 //------------------------------------------------------------------------------
@@ -242,6 +254,27 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
                       << "data the filter Transform.");
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
+  const SceneBlocks& blocks, std::vector<smokevis::WorkItem>& report)
+{
+  const auto scene = this->Implementation->Scenes.Make(std::move(description));
+  report.push_back({"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+    scene->SharesShapes() ? "those of the light field before hold the same shapes"
+                          : "shapes are new"});
+  smokevis::LightFieldOptions solver;
+  solver.Tolerance = this->Tolerance;
+  solver.Seed = static_cast<std::uint64_t>(this->Seed);
+  // TBB warns on the console about threads that the machine does not have.
+  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
+  smokevis::LightField field;
+  smokevis::RunWithProgress(this, 0.02, 0.98,
+    [&](smokevis::Progress& progress)
+    { field = smokevis::SolveLightField(*scene, solver, progress); });
+  report.insert(report.end(), field.Report.begin(), field.Report.end());
+  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
 }
 
 //------------------------------------------------------------------------------
@@ -342,18 +375,20 @@ void vtkSmokeLightField::Solve(
     description.Bands = 1;
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
   }
-  const smokevis::Scene scene(std::move(description));
-  smokevis::LightFieldOptions solver;
-  solver.Tolerance = this->Tolerance;
-  solver.Seed = static_cast<std::uint64_t>(this->Seed);
-  // TBB warns on the console about threads that the machine does not have.
-  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
-  smokevis::LightField field;
-  smokevis::RunWithProgress(this, 0.02, 0.98,
-    [&](smokevis::Progress& progress)
-    { field = smokevis::SolveLightField(scene, solver, progress); });
-  report.insert(report.end(), field.Report.begin(), field.Report.end());
-  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+  Internals::SolvedLight& last = this->Implementation->Solved;
+  if (last.Tolerance == this->Tolerance && last.Seed == this->Seed && last.Bands == this->Bands &&
+      this->Implementation->Scenes.IsLast(description) &&
+      smokevis::ShareLightField(last.Blocks, blocks))
+  {
+    report.push_back({"light fields solved", 0.0,
+      "smoke, surfaces and emitters are those of the light field before, which is kept"});
+  }
+  else
+  {
+    last = {};
+    this->SolveBlocks(std::move(description), blocks, report);
+    last = {blocks, this->Tolerance, this->Seed, this->Bands};
+  }
 
   output->SetNumberOfPartitionedDataSets(3);
   AddPartitions(output, 0, "Smoke", blocks.Smoke);

@@ -42,11 +42,14 @@
 #include <vtkPartitionedDataSetCollectionAlgorithm.h>
 
 #include <memory>
+#include <vector>
 
 namespace smokevis
 {
 struct SceneBlocks;
-}
+struct SceneDescription;
+struct WorkItem;
+} // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkSmokeLightField : public vtkPartitionedDataSetCollectionAlgorithm
 {
@@ -175,6 +178,9 @@ private:
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
   void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+  /// Solves the light field of a scene and stores it in the scene's blocks.
+  void SolveBlocks(smokevis::SceneDescription description, const smokevis::SceneBlocks& blocks,
+    std::vector<smokevis::WorkItem>& report);
 
   double Albedo = -1.0;
   double AngstromExponent = 1.0;
