@@ -35,13 +35,24 @@ public:
   {
     vtkDataObject* const output = vtkDataObject::GetData(outputs, port);
     output->Initialize();
-    if (static_cast<std::size_t>(port) < this->Outputs_.size() && this->Outputs_[port])
+    if (this->Has(port))
     {
-      Copy(this->Outputs_[port], output);
+      this->Show(outputs, port);
       // Else the executive empties the output, and those of all algorithms downstream.
       algorithm->SetAbortOutput(false);
       this->IsDue_ = true;
     }
+  }
+
+  bool Has(int port) const
+  {
+    return static_cast<std::size_t>(port) < this->Outputs_.size() && this->Outputs_[port];
+  }
+
+  /// Hands out once more what was kept.
+  void Show(vtkInformationVector* outputs, int port) const
+  {
+    Copy(this->Outputs_[port], vtkDataObject::GetData(outputs, port));
   }
 
   /// Forgets everything, after an error.

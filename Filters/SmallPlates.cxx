@@ -318,13 +318,24 @@ void SmallPlates::DrawCell(const Plate& plate, const std::vector<Place>& places,
   { return glm::dot(point - plate.Corner, plate.Across) / plate.Width * plate.Places; };
   const auto row = [&plate](const Vec3& point)
   { return glm::dot(point - plate.Corner, plate.Up) / plate.Height * plate.Places; };
+  // The lattice squares that the cell touches.
+  const auto range = [&](const auto& coordinate)
+  {
+    const auto [low, high] = std::minmax_element(emitter.Vertices.begin(), emitter.Vertices.end(),
+      [&](const Vec3& a, const Vec3& b) { return coordinate(a) < coordinate(b); });
+    const auto square = [&](const Vec3& point)
+    { return std::clamp(static_cast<int>(std::floor(coordinate(point))), 0, plate.Places - 1); };
+    return std::pair(square(*low), square(*high));
+  };
+  const auto [bottom, top] = range(row);
+  const auto [left, right] = range(column);
   std::vector<Vec3> strip, piece;
-  for (int j = 0; j < plate.Places; ++j)
+  for (int j = bottom; j <= top; ++j)
   {
     // The outermost take in what rounding leaves over the edge.
     KeepBetween(
       emitter.Vertices, row, j == 0 ? -1.0 : j, j + 1 == plate.Places ? j + 2 : j + 1, strip);
-    for (int i = 0; strip.size() > 2 && i < plate.Places; ++i)
+    for (int i = left; strip.size() > 2 && i <= right; ++i)
     {
       const Place& place = places[j * plate.Places + i];
       if (!place.Visible)

@@ -285,6 +285,7 @@ protected:
   vtkExitSignSource();
   ~vtkExitSignSource() override;
 
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -3,10 +3,12 @@
 #include "Errors.h"
 #include "EyeProperties.h"
 #include "FloorMap.h"
+#include "Identity.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "WholeInput.h"
 
 #include <vtkFloatArray.h>
@@ -19,7 +21,9 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <tuple>
 
 vtkStandardNewMacro(vtkFloorMapOfVisibility);
 
@@ -27,6 +31,9 @@ struct vtkFloorMapOfVisibility::Internals
 {
   smokevis::LightFieldInput Input;
   smokevis::KeptOutput Kept;
+  /// What Kept was made of: the light field, and the filter's properties as of then.
+  smokevis::Identity MadeOf;
+  vtkMTimeType MadeWith = 0;
 };
 
 namespace
@@ -105,6 +112,7 @@ int vtkFloorMapOfVisibility::RequestInformation(
     0, std::max(1, this->Resolution[0]) - 1, 0, std::max(1, this->Resolution[1]) - 1, 0, 0};
   outputVector->GetInformationObject(0)->Set(
     vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -140,13 +148,12 @@ void vtkFloorMapOfVisibility::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
-void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
+smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View& view) const
 {
   this->CheckProperties();
   const smokevis::Adaptation state{
     this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
   const smokevis::Observer eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
-  const smokevis::View& view = this->Implementation->Input.Get(input);
   const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
   if (signs.empty())
   {
@@ -199,10 +206,50 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   options.Eye = eye;
   options.ThresholdSpread = this->ThresholdSpread;
   options.State = state;
+  return options;
+}
+
+//------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
+{
+  const smokevis::Ranks ranks;
+  const smokevis::View* view = nullptr;
+  smokevis::FloorMapOptions options;
   smokevis::FloorMap map;
-  smokevis::RunWithProgress(this, 0.05, 0.98,
-    [&](smokevis::Progress& progress)
-    { map = smokevis::ComputeFloorMap(view, options, progress); });
+  const auto start = std::chrono::steady_clock::now();
+  ranks.Together(this,
+    [&]
+    {
+      view = &this->Implementation->Input.Get(input);
+      options = this->Prepare(*view);
+      const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
+      std::tie(options.First, options.End) = ranks.Share(places);
+      smokevis::RunWithProgress(this, 0.05, 0.98,
+        [&](smokevis::Progress& progress)
+        { map = smokevis::ComputeFloorMap(*view, options, progress); });
+    });
+  const std::vector<double> seconds =
+    ranks.Each(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const std::size_t places = map.Status.size();
+  ranks.Complete(map.Status, places);
+  ranks.Complete(map.BestSign, places);
+  for (std::vector<float>* const values : {&map.Visibility, &map.VisibilityError, &map.OpticalDepth,
+         &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance, &map.Contrast,
+         &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction})
+  {
+    ranks.Complete(*values, places);
+  }
+  for (smokevis::WorkItem& item : map.Report)
+  {
+    item.Count = ranks.Sum(item.Count);
+  }
+  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
+  {
+    const auto [first, end] = ranks.Share(places, rank);
+    map.Report.push_back({"seconds of process " + std::to_string(rank), seconds[rank],
+      "for " + std::to_string(end - first) + " places"});
+  }
+  const std::vector<smokevis::Sign>& signs = view->TheScene().Lights().Signs();
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);
@@ -241,10 +288,27 @@ int vtkFloorMapOfVisibility::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* output = vtkImageData::GetData(outputVector);
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  Internals& own = *this->Implementation;
+  const smokevis::Identity identity = smokevis::IdentityOf(input);
   try
   {
-    this->Compute(vtkDataObject::GetData(inputVector[0]), output);
-    this->Implementation->Kept.Keep(outputVector, 0);
+    // A parallel run asks for the whole and for pieces in turn: the work is done once.
+    const bool isNew =
+      !own.Kept.Has(0) || own.MadeOf != identity || own.MadeWith != this->GetMTime();
+    if (smokevis::Ranks().Most(isNew ? 1 : 0) > 0)
+    {
+      own.MadeWith = 0;
+      this->Compute(input, output);
+      own.Kept.Keep(outputVector, 0);
+      own.MadeOf = identity;
+      own.MadeWith = this->GetMTime();
+    }
+    else
+    {
+      own.Kept.Show(outputVector, 0);
+    }
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)
@@ -252,6 +316,7 @@ int vtkFloorMapOfVisibility::RequestData(
     if (this->GetAbortOutput())
     {
       this->Implementation->Kept.Restore(this, outputVector, 0);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
     this->Implementation->Kept.Clear();

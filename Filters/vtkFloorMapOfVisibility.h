@@ -30,6 +30,12 @@
 
 #include <memory>
 
+namespace smokevis
+{
+struct FloorMapOptions;
+class View;
+}
+
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
 {
 public:
@@ -167,6 +173,8 @@ private:
   void operator=(const vtkFloorMapOfVisibility&) = delete;
 
   void CheckProperties() const;
+  /// Checks what is asked for against the light field.
+  smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;

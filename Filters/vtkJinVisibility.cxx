@@ -4,6 +4,7 @@
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "SightLine.h"
 #include "SliceSampler.h"
 #include "WholeInput.h"
@@ -136,6 +137,7 @@ int vtkJinVisibility::RequestInformation(
     outputVector->GetInformationObject(0)->Set(
       Pipeline::WHOLE_EXTENT(), map->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -293,6 +295,7 @@ int vtkJinVisibility::RequestData(
     this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
       vtkDataObject::GetData(inputVector[2]), output);
     this->Implementation->Kept.Keep(outputVector, 0);
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)

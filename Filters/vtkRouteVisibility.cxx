@@ -4,6 +4,7 @@
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "RouteInput.h"
 #include "RouteWalk.h"
 #include "StepWalk.h"
@@ -196,6 +197,7 @@ int vtkRouteVisibility::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   smokevis::DropTime(outputVector->GetInformationObject(0));
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -345,6 +347,7 @@ int vtkRouteVisibility::RequestData(
   {
     this->Compute(inputVector[0], vtkDataObject::GetData(inputVector[1]), output);
     this->Implementation->Kept.Keep(outputVector, 0);
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const smokevis::StoppedUpstream&)

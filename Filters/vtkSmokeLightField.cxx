@@ -1,11 +1,13 @@
 #include "vtkSmokeLightField.h"
 
 #include "Errors.h"
+#include "Identity.h"
 #include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
 #include "SurfaceRefiner.h"
@@ -20,10 +22,12 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkStringArray.h>
 
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -143,6 +147,44 @@ void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, 
   output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name);
 }
 
+/// Adds what each process of a parallel run did: every one of them solves the whole.
+void ReportRanks(const smokevis::Ranks& ranks, vtkPartitionedDataSetCollection& output, double own)
+{
+  constexpr double kibibyte = 1024.0;
+  const std::vector<double> seconds = ranks.Each(own);
+  const std::vector<double> bytes =
+    ranks.Each(kibibyte * static_cast<double>(output.GetActualMemorySize()));
+  vtkFieldData* const fields = output.GetFieldData();
+  auto* const what = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhat"));
+  auto* const why = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhy"));
+  vtkDataArray* const count = fields->GetArray("WorkReportCount");
+  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
+  {
+    const std::string process = " of process " + std::to_string(rank);
+    what->InsertNextValue("seconds" + process);
+    count->InsertNextTuple1(seconds[rank]);
+    why->InsertNextValue("each process solves the whole light field");
+    what->InsertNextValue("bytes" + process);
+    count->InsertNextTuple1(bytes[rank]);
+    why->InsertNextValue("each process holds the whole light field");
+  }
+}
+
+/// Leaves every so many-th block, which a view of a parallel run is to draw.
+void DivideBlocks(vtkPartitionedDataSetCollection& output, const std::pair<int, int>& piece)
+{
+  for (unsigned int i = 0; i < output.GetNumberOfPartitionedDataSets(); ++i)
+  {
+    for (unsigned int j = 0; j < output.GetNumberOfPartitions(i); ++j)
+    {
+      if (static_cast<int>(j) % piece.second != piece.first)
+      {
+        output.SetPartition(i, j, static_cast<vtkDataObject*>(nullptr));
+      }
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -158,6 +200,9 @@ struct vtkSmokeLightField::Internals
   };
 
   smokevis::KeptOutput Kept;
+  /// What Kept was made of: the inputs, and the filter's properties as of then.
+  std::vector<std::uint64_t> MadeOf;
+  vtkMTimeType MadeWith = 0;
   smokevis::SceneKeeper Scenes;
   SolvedLight Solved;
 };
@@ -190,6 +235,14 @@ int vtkSmokeLightField::FillInputPortInformation(int port, vtkInformation* info)
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -441,10 +494,39 @@ int vtkSmokeLightField::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
+  Internals& own = *this->Implementation;
+  const smokevis::Ranks ranks;
   try
   {
-    this->Solve(inputVector, output);
-    this->Implementation->Kept.Keep(outputVector, 0);
+    // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
+    // the same contents its former output is divided in another way, and nothing else is done.
+    std::vector<std::uint64_t> contents;
+    for (int port = 0; port < this->GetNumberOfInputPorts() && ranks.Count() > 1; ++port)
+    {
+      for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+      {
+        contents.push_back(port);
+        contents.push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
+      }
+    }
+    const bool isNew = ranks.Count() == 1 || !own.Kept.Has(0) || own.MadeOf != contents ||
+                       own.MadeWith != this->GetMTime();
+    if (ranks.Most(isNew ? 1 : 0) > 0)
+    {
+      own.MadeWith = 0;
+      const auto start = std::chrono::steady_clock::now();
+      ranks.Together(this, [&] { this->Solve(inputVector, output); });
+      ReportRanks(ranks, *output,
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      own.Kept.Keep(outputVector, 0);
+      own.MadeOf = contents;
+      own.MadeWith = this->GetMTime();
+    }
+    else
+    {
+      own.Kept.Show(outputVector, 0);
+    }
+    DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
     return 1;
   }
   catch (const std::exception& error)
@@ -452,6 +534,7 @@ int vtkSmokeLightField::RequestData(
     if (this->GetAbortOutput())
     {
       this->Implementation->Kept.Restore(this, outputVector, 0);
+      DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
       return 1;
     }
     this->Implementation->Kept.Clear();

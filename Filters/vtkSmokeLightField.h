@@ -166,6 +166,7 @@ protected:
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
     vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

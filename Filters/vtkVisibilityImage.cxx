@@ -10,6 +10,7 @@
 #include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "ThinLens.h"
 #include "WholeInput.h"
 
@@ -158,6 +159,7 @@ int vtkVisibilityImage::RequestInformation(
     info->Set(vtkDataObject::ORIGIN(), origin, 3);
     info->Set(vtkDataObject::SPACING(), spacing, 3);
   }
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -386,9 +388,10 @@ int vtkVisibilityImage::RequestData(
   own.FailedFilter = 0;
   try
   {
-    this->Trace(input, output, photograph);
+    smokevis::Ranks().Together(this, [&] { this->Trace(input, output, photograph); });
     own.Kept.Keep(outputVector, 0);
     own.Kept.Keep(outputVector, 1);
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)
@@ -397,6 +400,7 @@ int vtkVisibilityImage::RequestData(
     {
       own.Kept.Restore(this, outputVector, 0);
       own.Kept.Restore(this, outputVector, 1);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
     own.Kept.Clear();

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "Ranks.h"
 #include "StepWalk.h"
 #include "VisibilityHistory.h"
 #include "vtkFloorMapOfVisibility.h"
@@ -96,6 +97,7 @@ int vtkVisibilityOverTime::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   smokevis::DropTime(outputVector->GetInformationObject(0));
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -187,6 +189,7 @@ int vtkVisibilityOverTime::RequestData(
   {
     this->Compute(inputVector[0], output);
     this->Implementation->Kept.Keep(outputVector, 0);
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const smokevis::StoppedUpstream&)

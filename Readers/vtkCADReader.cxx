@@ -8,6 +8,7 @@
 #include "KeptOutput.h"
 #include "MaterialTable.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -132,6 +133,14 @@ void vtkCADReader::LoadModel()
 }
 
 //------------------------------------------------------------------------------------------------
+int vtkCADReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
 int vtkCADReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -139,47 +148,52 @@ int vtkCADReader::RequestData(
   vtkPolyData* const emitters = vtkPolyData::GetData(outputVector, EmittersPort);
   try
   {
-    this->CheckProperties();
-    this->LoadModel();
-    const smokevis::CadModel& model = *this->Internals->Model;
-    smokevis::MaterialTable table;
-    if (this->MaterialTable && *this->MaterialTable)
-    {
-      table = smokevis::MaterialTable(this->MaterialTable);
-      const std::vector<std::string> unmatched = table.Unmatched(model);
-      std::string list;
-      for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
+    smokevis::Ranks().Together(this,
+      [&]
       {
-        list += (list.empty() ? "" : "; ") + unmatched[i];
-      }
-      if (!unmatched.empty())
-      {
-        vtkWarningMacro(<< "material table '" << this->MaterialTable << "': " << unmatched.size()
-                        << " rows match no material and no object: " << list
-                        << ". The names are in the cell arrays Material and Object.");
-      }
-    }
-    vtkNew<vtkTransform> placement;
-    placement->Translate(this->Translation);
-    placement->RotateZ(this->Rotation[2]);
-    placement->RotateX(this->Rotation[0]);
-    placement->RotateY(this->Rotation[1]);
-    smokevis::CadPolyDataOptions options;
-    options.DefaultReflectance = this->DefaultReflectance;
-    options.TransparencyThreshold = this->TransparencyThreshold;
-    const smokevis::CadTriangleCounts counts = smokevis::BuildCadPolyData(
-      model, table, options, *placement->GetMatrix(), *surfaces, *emitters);
-    if (counts.Kept == 0)
-    {
-      throw smokevis::Error(this->FileName,
-        "nothing of it is left: " + std::to_string(counts.Transparent) +
-          " triangles are transparent and " + std::to_string(counts.Dropped) +
-          " are dropped by the material table",
-        "Lower TransparencyThreshold or change the table");
-    }
+        this->CheckProperties();
+        this->LoadModel();
+        const smokevis::CadModel& model = *this->Internals->Model;
+        smokevis::MaterialTable table;
+        if (this->MaterialTable && *this->MaterialTable)
+        {
+          table = smokevis::MaterialTable(this->MaterialTable);
+          const std::vector<std::string> unmatched = table.Unmatched(model);
+          std::string list;
+          for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
+          {
+            list += (list.empty() ? "" : "; ") + unmatched[i];
+          }
+          if (!unmatched.empty())
+          {
+            vtkWarningMacro(<< "material table '" << this->MaterialTable << "': "
+                            << unmatched.size() << " rows match no material and no object: " << list
+                            << ". The names are in the cell arrays Material and Object.");
+          }
+        }
+        vtkNew<vtkTransform> placement;
+        placement->Translate(this->Translation);
+        placement->RotateZ(this->Rotation[2]);
+        placement->RotateX(this->Rotation[0]);
+        placement->RotateY(this->Rotation[1]);
+        smokevis::CadPolyDataOptions options;
+        options.DefaultReflectance = this->DefaultReflectance;
+        options.TransparencyThreshold = this->TransparencyThreshold;
+        const smokevis::CadTriangleCounts counts = smokevis::BuildCadPolyData(
+          model, table, options, *placement->GetMatrix(), *surfaces, *emitters);
+        if (counts.Kept == 0)
+        {
+          throw smokevis::Error(this->FileName,
+            "nothing of it is left: " + std::to_string(counts.Transparent) +
+              " triangles are transparent and " + std::to_string(counts.Dropped) +
+              " are dropped by the material table",
+            "Lower TransparencyThreshold or change the table");
+        }
+      });
     this->UpdateProgress(1.0);
     this->Internals->Kept.Keep(outputVector, SurfacesPort);
     this->Internals->Kept.Keep(outputVector, EmittersPort);
+    smokevis::LeaveToFirstPiece(outputVector);
   }
   catch (const std::exception& error)
   {
@@ -187,6 +201,7 @@ int vtkCADReader::RequestData(
     {
       this->Internals->Kept.Restore(this, outputVector, SurfacesPort);
       this->Internals->Kept.Restore(this, outputVector, EmittersPort);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
     this->Internals->Kept.Clear();

@@ -132,6 +132,7 @@ vtkSmartPointer<vtkPolyData> FDSBoundary::Read(
   AddField(walls->GetFieldData(), "Quantity", entry.Quantity.LongLabel);
   AddField(walls->GetFieldData(), "Unit", entry.Quantity.Unit);
   AddField(walls->GetFieldData(), "File", entry.File);
+  AddField(walls->GetFieldData(), "Time", mix.Time);
   return walls;
 }
 

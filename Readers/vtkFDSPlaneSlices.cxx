@@ -118,6 +118,7 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
   AddField(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
   AddField(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
   AddField(grid->GetFieldData(), "File", slice.File);
+  AddField(grid->GetFieldData(), "Time", mix.Time);
   return grid;
 }
 

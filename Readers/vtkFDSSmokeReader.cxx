@@ -320,6 +320,7 @@ void vtkFDSSmokeReader::ReadBlocks(
   const smokevis::FDSPieces pieces(index, outInfo);
   smokevis::FDSBlocks blocks;
   std::string problems;
+  std::vector<std::string> damages;
   for (auto& part : parts)
   {
     const auto& entry = entryOf(part);
@@ -331,6 +332,11 @@ void vtkFDSSmokeReader::ReadBlocks(
       try
       {
         data = source.Read(part, time, interpolation);
+        if (!part.File->Damage().empty())
+        {
+          damages.push_back(
+            part.File->Path() + ": " + part.File->Damage() + "; the other frames are used.");
+        }
       }
       catch (const std::exception& error)
       {
@@ -343,6 +349,7 @@ void vtkFDSSmokeReader::ReadBlocks(
   {
     vtkWarningMacro(<< "Some " << what << " are left out: " << problems);
   }
+  this->Warn(this->Internals->Run.NotSaidYet(damages));
   vtkNew<vtkFieldData> fields;
   smokevis::AddField(fields, "Time", time);
   smokevis::AddField(fields, "CHID", index.Chid);

@@ -102,8 +102,8 @@ def judge(numbers):
         "as image); the relation cannot tell more, and the brackets are wide. Agrees where the "
         "sign is lost in the dark near 1 per metre and the lamp near the camera is the worse one. "
         "Less light is turned back then: lamps veil less, and the one near the camera is less "
-        "ahead, but the worse one still. More of the sign's own light comes as glow: in the dark the sign "
-        "drowns in it before it is too faint, earlier than without")
+        "ahead, but the worse one still. More of the sign's own light comes as glow: in the dark "
+        "the sign drowns in it before it is too faint, earlier than without")
 
 
 def draw(numbers, path):

@@ -101,6 +101,29 @@ for model, cut, kept, last in (("Heat Release", HEAT, GLOW, "0.0008"), ("Tempera
         true(cut[0] + ": the 8-bit file of" in said.text, "a missing file of flames is named")
         equal(said.count("ERROR"), 0, "missing flames are no error")
 
+# --- boundary files and 2-D slices that end early ------------------------------------------------------------
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, ("room.smv", "room_devc.csv") + SMOKE + HEAT)
+    for name in ("room_1_1.bf", "room_1_9.sf"):
+        with open(os.path.join(folder, name), "rb") as file:
+            whole = file.read()
+        with open(os.path.join(temporary, name), "wb") as file:
+            file.write(whole[:-10])
+    ending = reader(os.path.join(temporary, "room.smv"))
+    # ParaView updates all outputs.
+    said = messages_of(lambda: ending.UpdatePipeline(30.0), temporary)
+    equal((said.count("ERROR"), said.count("Warning")), (0, 2), "messages of what is cut")
+    for port, name in ((3, "room_1_9.sf"), (4, "room_1_1.bf")):
+        true(name + ": frame " in said.text and "is cut short; the other frames are used" in said.text, name)
+        simple.OutputPort(ending, port).UpdatePipeline(30.0)
+        data = ending.GetClientSideObject().GetOutputDataObject(port)
+        shown = [data.GetPartition(i, 0) for i in range(data.GetNumberOfPartitionedDataSets())]
+        times = [block.GetFieldData().GetArray("Time").GetValue(0) for block in shown if block]
+        equal(len(times), 1, "blocks whose files are there")
+        true(15 < times[0] < 29, "the time of the last whole frame, %g s" % times[0])
+    again = messages_of(lambda: ending.UpdatePipeline(8.0), temporary)
+    equal(again.count("Warning"), 0, "it is said once")
+
 # --- heat release beside black bodies ----------------------------------------------------------------------
 heat = Smoke(reader(index), 20.0).field("FlameHeatRelease")
 glowing = Smoke(reader(index, FlameModel="Temperature"), 20.0)
