@@ -95,8 +95,11 @@ def camera_from_view(image=None, view=None):
 def signs(light_field=None):
     """The signs of a light field, or of emitters: a list of (id, name), for TargetSign."""
     source = light_field or simple.GetActiveSource()
+    if source.GetXMLName() == "SmokeLightField":
+        return sorted(set(sum((signs(emitters) for emitters in source.Emitters), [])))
     source.UpdatePipeline()
-    data = servermanager.Fetch(source)
+    here = source.GetClientSideObject()
+    data = here.GetOutputDataObject(source.Port) if here else servermanager.Fetch(source)
     found = {}
 
     def collect(block):
