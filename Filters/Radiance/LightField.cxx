@@ -388,7 +388,8 @@ void Solver::SolveMultiple(int band)
     [&]
     {
       std::tie(plates, rays) =
-        PlateGather(this->Scene_, this->Options_, this->Field_, band).Run(this->Progress_);
+        PlateGather(this->Scene_, this->Options_, this->Inside(), this->Field_, band)
+          .Run(this->Progress_);
     });
   this->CheckStop();
   this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");

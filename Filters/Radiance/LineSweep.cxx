@@ -19,11 +19,6 @@ namespace
 constexpr double CrossingsPerSweep = 1.5;
 constexpr std::size_t FewestLines = 512;
 constexpr double MostLinesForPatches = 20000.0;
-/// Optical depth across a cell below which its source is flat enough, that of the pieces that
-/// thicker ones are cut into, and most pieces of one.
-constexpr double FlatDepth = 0.41;
-constexpr double PieceDepth = 0.5;
-constexpr int MostParts = 8;
 
 /// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface
 /// with a cosine-distributed direction.
@@ -103,7 +98,6 @@ LineSweep::LineSweep(
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
   this->Extinction_.resize(cells);
-  this->Varies_.resize(cells);
   double boundary = 0.0;
   double volume = 0.0;
   for (std::size_t cell = 0; cell < cells; ++cell)
@@ -113,11 +107,6 @@ LineSweep::LineSweep(
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
-    // In the thickest cells pieces would not follow the light; means keep the balance of power.
-    const double depth = this->Extinction_[cell] * std::max({size.x, size.y, size.z});
-    this->Varies_[cell] = this->DirectFluence_[cell] > 0.0F && depth > 0.0 &&
-                          depth < MostParts * PieceDepth &&
-                          (depth > FlatDepth || direct.Close(static_cast<std::int64_t>(cell)));
     volume += own;
     boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   }
@@ -190,35 +179,6 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
-void LineSweep::AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
-  double end, Buffers& buffers) const
-{
-  const double length = end - begin;
-  if (!this->Varies_[cell])
-  {
-    buffers.Cell.push_back(cell);
-    buffers.Length.push_back(static_cast<float>(length));
-    buffers.Direct.push_back(this->DirectFluence_[cell]);
-    return;
-  }
-  // Thick pieces are cut: the source is flat in each.
-  const int parts = std::clamp(
-    static_cast<int>(std::ceil(this->Extinction_[cell] * length / PieceDepth)), 1, MostParts);
-  for (int part = 0; part < parts; ++part)
-  {
-    const double from = begin + length * part / parts;
-    const double to = begin + length * (part + 1) / parts;
-    double direct = this->Direct_.Smooth(cell, origin + 0.5 * (from + to) * direction, this->Band_);
-    if (this->Direct_.Near(cell))
-    {
-      direct += this->Direct_.NearMean(cell, origin, direction, from, to, this->Band_);
-    }
-    buffers.Cell.push_back(cell);
-    buffers.Length.push_back(static_cast<float>(to - from));
-    buffers.Direct.push_back(static_cast<float>(direct));
-  }
-}
-
 void LineSweep::TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
   const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const
 {
@@ -230,6 +190,16 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   buffers.Direct.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  const auto add = [&](std::int64_t cell, double begin, double end)
+  {
+    this->Direct_.ForEachPart(cell, origin, direction, begin, end, this->Band_,
+      [&buffers, cell](double part, double direct)
+      {
+        buffers.Cell.push_back(cell);
+        buffers.Length.push_back(static_cast<float>(part));
+        buffers.Direct.push_back(static_cast<float>(direct));
+      });
+  };
   std::size_t crossing = 0;
   const auto closeUntil = [&](double distance)
   {
@@ -247,11 +217,11 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance < segment.End)
     {
       const double middle = buffers.Crossings[crossing].Arrive.Distance;
-      this->AddPiece(origin, direction, segment.Cell, begin, middle, buffers);
+      add(segment.Cell, begin, middle);
       begin = middle;
       closeUntil(middle);
     }
-    this->AddPiece(origin, direction, segment.Cell, begin, segment.End, buffers);
+    add(segment.Cell, begin, segment.End);
   }
   closeUntil(std::numeric_limits<double>::infinity());
   const std::size_t pieces = buffers.Cell.size();

@@ -72,9 +72,6 @@ private:
 
   void TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
     const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const;
-  /// Adds the pieces that a piece of a line is cut into, with the direct fluence in each.
-  void AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
-    double end, Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
@@ -85,8 +82,6 @@ private:
   int Band_;
   /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
   float Scatter_;
-  /// Whether direct light varies inside a cell by more than a flat source may.
-  std::vector<bool> Varies_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
   std::vector<float> Extinction_;

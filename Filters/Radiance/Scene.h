@@ -50,6 +50,12 @@ public:
     const auto& scale = this->Description_.ExtinctionScale;
     return *std::max_element(scale.begin(), scale.begin() + this->Description_.Bands);
   }
+  /// Of the band that the smoke dims least.
+  double SmallestScale() const
+  {
+    const auto& scale = this->Description_.ExtinctionScale;
+    return *std::min_element(scale.begin(), scale.begin() + this->Description_.Bands);
+  }
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }
