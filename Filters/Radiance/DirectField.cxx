@@ -90,7 +90,9 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 {
   ends[0] = begin;
   const double first = glm::dot(origin + begin * direction - light.Centre, light.Normal);
-  const double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  // A ray that ends on the plate may seem to end behind it.
+  last = std::abs(last) < 1e-6 * first ? 0.0 : last;
   const double close = glm::length(origin + end * direction - light.Centre);
   if (last >= 0.0 && last < 0.3 * first && close < 1.5 * light.Radius)
   {

@@ -1,6 +1,7 @@
 #include "Scene.h"
 
 #include "Errors.h"
+#include "Exposure.h"
 
 #include <cmath>
 #include <limits>
@@ -144,6 +145,7 @@ Scene::Scene(SceneDescription description) : Description_(std::move(description)
   this->Lights_ =
     EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
   this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
+  this->ExposedArea_ = ExposedAreas(this->Shapes_, this->Description_.Surfaces, this->EmitterMesh_);
 }
 
 } // namespace smokevis

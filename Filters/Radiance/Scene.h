@@ -64,6 +64,11 @@ public:
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
   std::size_t Patches() const { return this->PatchArea_.size(); }
   double PatchArea(std::size_t patch) const { return this->PatchArea_[patch]; }
+  /// Area of one side of a patch that nothing touches and covers [m2]; side 0 is the front.
+  double ExposedArea(std::size_t patch, int side) const
+  {
+    return this->ExposedArea_[2 * patch + side];
+  }
   const Spectrum& PatchReflectance(std::size_t patch) const
   {
     return this->PatchReflectance_[patch];
@@ -89,6 +94,8 @@ private:
   EmitterSet Lights_;
   Geometry Shapes_;
   std::vector<double> PatchArea_;
+  /// [patch][side].
+  std::vector<double> ExposedArea_;
   std::vector<Spectrum> PatchReflectance_;
   Vec3 Lower_{0.0};
   Vec3 Upper_{0.0};
