@@ -3,7 +3,7 @@
 
 smokevisibility_packages=(
   cmake g++ clang ninja-build git
-  paraview paraview-dev python3-paraview python3-numpy python3-matplotlib
+  paraview paraview-dev python3-paraview python3-numpy python3-scipy python3-matplotlib
   qtbase5-dev qttools5-dev libqt5svg5-dev libqt5x11extras5-dev libqt5opengl5-dev
   qtxmlpatterns5-dev-tools libutfcpp-dev python3-dev python3-mpi4py libopenmpi-dev openmpi-bin libxml2-dev
   libhdf5-dev libhdf5-openmpi-dev libnetcdf-dev libgdal-dev libcgns-dev libboost-dev libtheora-dev
@@ -13,7 +13,7 @@ smokevisibility_packages=(
   libeigen3-dev libxt-dev nlohmann-json3-dev protobuf-compiler libprotobuf-dev libfmt-dev zlib1g-dev
   libembree-dev libglm-dev libopenexr-dev python3-imath libtbb-dev libgtest-dev libgmock-dev
   libassimp-dev libocct-data-exchange-dev
-  xvfb xauth)
+  xvfb xauth imagemagick)
 
 smokevisibility_say()
 {

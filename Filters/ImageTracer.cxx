@@ -2,6 +2,8 @@
 #include "ImageTracer.h"
 
 #include "Errors.h"
+#include "PixelLight.h"
+#include "SmallPlates.h"
 #include "VeilBlock.h"
 
 #include <tbb/parallel_for.h>
@@ -39,36 +41,12 @@ bool ShowsPlate(const Hit& hit)
   return hit.Found() && hit.Emitter;
 }
 
-/// What one band of a pixel receives.
-struct PixelLight
-{
-  double Surface = 0.0;
-  double Veil = 0.0;
-  double OpticalDepth = 0.0;
-  Lanes Multiple;
-
-  void AddVeil(const RayLight& light, double weight)
-  {
-    this->Veil += weight * light.Veil();
-    this->OpticalDepth += weight * light.OpticalDepth;
-    this->AddMultiple(light.VeilMultiple, weight);
-  }
-
-  void AddMultiple(const Lanes& lanes, double weight)
-  {
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      this->Multiple[batch] += static_cast<float>(weight) * lanes[batch];
-    }
-  }
-};
-
 /// Traces squares of pixels.
 class BlockTracer
 {
 public:
   BlockTracer(const View& view, const Camera& camera, double acuity, TracedImage& image)
-      : View_(view), Camera_(camera), Image_(image), Acuity_(acuity),
+      : View_(view), Camera_(camera), Image_(image), Small_(view, camera, acuity), Acuity_(acuity),
         Bands_(view.TheScene().Bands())
   {
   }
@@ -172,7 +150,7 @@ private:
   }
 
   void AddSample(const Vec3& ray, const Hit& hit, const VeilBlock::Smoke& smoke, double weight,
-    std::array<PixelLight, MaxBands>& light) const
+    PixelSpectrum& light) const
   {
     for (int band = 0; band < this->Bands_; ++band)
     {
@@ -188,26 +166,41 @@ private:
   {
     const double x = column + 0.5;
     const double y = row + 0.5;
-    std::array<PixelLight, MaxBands> light;
+    const std::size_t index = column + static_cast<std::size_t>(row) * this->Camera_.Width;
+    const double share = this->Small_.Share(index);
+    PixelSpectrum light;
+    bool background = true;
     if (pixel.Samples == 1)
     {
       this->AddSample(this->Camera_.Direction(x, y), pixel.Seen, smoke, 1.0, light);
     }
     else
     {
-      this->Average(x, y, pixel, smoke, light);
+      background = this->Average(x, y, pixel, smoke, share > 0.0, light);
     }
-    const std::size_t index = column + static_cast<std::size_t>(row) * this->Camera_.Width;
+    if (share > 0.0)
+    {
+      for (PixelLight& band : light)
+      {
+        band.Scale(1.0 - share);
+      }
+      this->Small_.Add(index, light);
+      for (PixelLight& band : light)
+      {
+        band.Scale(background ? 1.0 : 1.0 / share);
+      }
+    }
     this->Put(index, light);
     this->Image_.SignIds[index] =
       ShowsPlate(pixel.Seen) && pixel.Seen.Side == 0
         ? this->View_.TheScene().Lights().Cells()[this->Emitter(pixel.Seen)].SignId
-        : -1;
+        : this->Small_.SignAt(index);
   }
 
   /// Mean over a regular grid of samples. Samples as far away as each other share their smoke.
-  void Average(double x, double y, const Pixel& pixel, const VeilBlock::Smoke& smoke,
-    std::array<PixelLight, MaxBands>& light) const
+  /// @param behind whether small plates are left out; false is returned where nothing else is seen
+  bool Average(double x, double y, const Pixel& pixel, const VeilBlock::Smoke& smoke, bool behind,
+    PixelSpectrum& light) const
   {
     struct Sheet
     {
@@ -219,33 +212,52 @@ private:
     {
       sheets.push_back({pixel.Seen, smoke});
     }
+    int seen = 0;
+    const auto add = [&](double right, double up)
+    {
+      const Vec3 ray = this->Camera_.Direction(x + right, y + up);
+      const Hit hit = this->View_.FirstHit(this->Camera_.Position, ray);
+      if (behind && this->Small_.Covers(hit))
+      {
+        return;
+      }
+      auto sheet = std::find_if(sheets.begin(), sheets.end(),
+        [&](const Sheet& known) { return SeemsAsFar(known.Seen, hit); });
+      if (sheet == sheets.end())
+      {
+        sheets.push_back({hit, {}});
+        sheet = sheets.end() - 1;
+        for (int band = 0; band < this->Bands_; ++band)
+        {
+          sheet->Smoke[band] =
+            this->View_.TraceVeil(this->Camera_.Position, ray, 0.0, hit.Distance, band);
+        }
+      }
+      this->AddSample(ray, hit, sheet->Smoke, 1.0, light);
+      ++seen;
+    };
     const int count = pixel.Samples;
     const double side = 2.0 * this->HalfFootprint(x, y);
     for (int j = 0; j < count; ++j)
     {
       for (int i = 0; i < count; ++i)
       {
-        const Vec3 ray = this->Camera_.Direction(
-          x + side * ((i + 0.5) / count - 0.5), y + side * ((j + 0.5) / count - 0.5));
-        const Hit hit = this->View_.FirstHit(this->Camera_.Position, ray);
-        auto sheet = std::find_if(sheets.begin(), sheets.end(),
-          [&](const Sheet& known) { return SeemsAsFar(known.Seen, hit); });
-        if (sheet == sheets.end())
-        {
-          sheets.push_back({hit, {}});
-          sheet = sheets.end() - 1;
-          for (int band = 0; band < this->Bands_; ++band)
-          {
-            sheet->Smoke[band] =
-              this->View_.TraceVeil(this->Camera_.Position, ray, 0.0, hit.Distance, band);
-          }
-        }
-        this->AddSample(ray, hit, sheet->Smoke, 1.0 / (count * count), light);
+        add(side * ((i + 0.5) / count - 0.5), side * ((j + 0.5) / count - 0.5));
       }
     }
+    // A convex plate that leaves something of the pixel leaves a corner.
+    for (int corner = 0; seen == 0 && corner < 4; ++corner)
+    {
+      add((corner % 2 == 0 ? -0.5 : 0.5) * side, (corner / 2 == 0 ? -0.5 : 0.5) * side);
+    }
+    for (PixelLight& band : light)
+    {
+      band.Scale(1.0 / std::max(1, seen));
+    }
+    return seen > 0;
   }
 
-  void Put(std::size_t pixel, const std::array<PixelLight, MaxBands>& light) const
+  void Put(std::size_t pixel, const PixelSpectrum& light) const
   {
     Spectrum surface{}, veil{};
     Lanes multiple;
@@ -277,6 +289,7 @@ private:
   const View& View_;
   const Camera& Camera_;
   TracedImage& Image_;
+  SmallPlates Small_;
   double Acuity_;
   int Bands_;
 };

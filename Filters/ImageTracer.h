@@ -24,12 +24,14 @@ struct TracedImage
   std::vector<float> OpticalDepth;
   /// Luminance of each of three bands, 3 values a pixel.
   std::vector<float> LuminanceRGB;
-  /// Id of the sign whose front the middle of the pixel sees, or -1.
+  /// Id of the sign whose front the middle of the pixel sees, of the small sign whose middle the
+  /// pixel holds, or -1.
   std::vector<int> SignIds;
 };
 
 /// Traces all pixels. A pixel that shows a plate of a sign or lamp averages over its footprint,
-/// which is no smaller than the observer resolves. The result does not depend on the number of
+/// which is no smaller than the observer resolves; plates of a few pixels or less than one count by
+/// their exact areas (SmallPlates). The result does not depend on the number of
 /// threads. A camera with an aperture is the mean of pinhole cameras all over its lens; its SignIds
 /// are those of the lens's centre. Throws Error when stopped.
 /// @param acuity smallest angle that is resolved [rad]

@@ -7,6 +7,7 @@
 #include <vtkDataSet.h>
 #include <vtkFloatArray.h>
 
+#include <array>
 #include <cmath>
 
 namespace smokevis
@@ -30,6 +31,25 @@ vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int
   }
   block.GetCellData()->AddArray(array);
   return array;
+}
+
+/// Of the blocks of each kind.
+std::array<std::vector<vtkIdType>, 3> CellCounts(const SceneBlocks& blocks)
+{
+  std::array<std::vector<vtkIdType>, 3> counts;
+  for (const SmokeBlock& block : blocks.Smoke)
+  {
+    counts[0].push_back(block.Grid->GetNumberOfCells());
+  }
+  for (const SurfaceBlock& block : blocks.Surfaces)
+  {
+    counts[1].push_back(block.Mesh->GetNumberOfCells());
+  }
+  for (const SurfaceBlock& block : blocks.Emitters)
+  {
+    counts[2].push_back(block.Mesh->GetNumberOfCells());
+  }
+  return counts;
 }
 
 void CopyLanes(const Lanes& lanes, float* target)
@@ -191,6 +211,58 @@ void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands)
   }
   std::vector<float>().swap(field.DirectIlluminance);
   std::vector<Lanes>().swap(field.MultipleIlluminance);
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks)
+{
+  std::vector<vtkDataArray*> arrays;
+  for (const SmokeBlock& block : blocks.Smoke)
+  {
+    for (const char* const name : {"DirectFluence", "MultipleFluence"})
+    {
+      arrays.push_back(block.Grid->GetCellData()->GetArray(name));
+    }
+  }
+  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
+  {
+    for (const SurfaceBlock& block : *group)
+    {
+      for (const char* const name : {"DirectIlluminance", "MultipleIlluminance"})
+      {
+        arrays.push_back(block.Mesh->GetCellData()->GetArray(name));
+      }
+    }
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
+{
+  if (CellCounts(from) != CellCounts(to))
+  {
+    return false;
+  }
+  const auto share = [](vtkDataSet& source, vtkDataSet& target, auto... names)
+  { (target.GetCellData()->AddArray(source.GetCellData()->GetArray(names)), ...); };
+  for (std::size_t i = 0; i < to.Smoke.size(); ++i)
+  {
+    share(*from.Smoke[i].Grid, *to.Smoke[i].Grid, "Fluence", "FluenceError", "DirectFluence",
+      "MultipleFluence");
+  }
+  const auto shareMeshes =
+    [&share](const std::vector<SurfaceBlock>& sources, const std::vector<SurfaceBlock>& targets)
+  {
+    for (std::size_t i = 0; i < targets.size(); ++i)
+    {
+      share(*sources[i].Mesh, *targets[i].Mesh, "Illuminance", "IlluminanceError",
+        "IlluminanceBack", "DirectIlluminance", "MultipleIlluminance");
+    }
+  };
+  shareMeshes(from.Surfaces, to.Surfaces);
+  shareMeshes(from.Emitters, to.Emitters);
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -18,6 +18,13 @@ namespace smokevis
 /// back, band after band.
 void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands);
 
+/// The arrays that LoadLightField reads, in a fixed order, null where one is missing.
+std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks);
+
+/// Gives blocks the light field of others; the arrays are shared. Returns false, and does nothing,
+/// where the blocks have other numbers of cells.
+bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to);
+
 /// Reads the light field back. Throws Error where an array is missing or has another size.
 /// @param bands  bands to read, the first ones of the file
 LightField LoadLightField(const SceneBlocks& blocks, int bands);

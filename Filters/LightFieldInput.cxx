@@ -12,22 +12,14 @@
 #include <vtkNew.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+
 namespace smokevis
 {
 namespace
 {
 
 const char* const Remedy = "Give the output of SmokeLightField, or a file that it was saved to";
-
-/// Set when the static objects of this library are destroyed, which is before Embree's are.
-bool processIsEnding = false;
-
-struct EndOfProcess
-{
-  ~EndOfProcess() { processIsEnding = true; }
-};
-
-const EndOfProcess endOfProcess;
 
 double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
 {
@@ -39,6 +31,65 @@ double NeededNumber(vtkDataObject* input, const char* name, int component = 0)
   return value;
 }
 
+} // namespace
+
+//------------------------------------------------------------------------------
+LightFieldInput::~LightFieldInput()
+{
+  if (ProcessIsEnding())
+  {
+    static_cast<void>(this->View_.release());
+  }
+}
+
+//------------------------------------------------------------------------------
+const View& LightFieldInput::Get(vtkDataObject* input)
+{
+  if (!input)
+  {
+    throw Error("light field", "there is no input", Remedy);
+  }
+  const vtkMTimeType time = std::max(input->GetMTime(), input->GetUpdateTime());
+  if (!this->View_ || this->Input_ != input || this->InputTime_ != time)
+  {
+    // Set only once all has gone well.
+    this->Input_ = nullptr;
+    this->Load(input);
+    this->Input_ = input;
+    this->InputTime_ = time;
+  }
+  else
+  {
+    this->Report_ = {{"views set up", 0.0, "the light field did not change"}};
+  }
+  return *this->View_;
+}
+
+//------------------------------------------------------------------------------
+SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks)
+{
+  vtkDataObject* const smoke = FindBlock(lightField, "Smoke");
+  if (!smoke)
+  {
+    throw Error("light field", "it has no block named Smoke", Remedy);
+  }
+  blocks.Smoke = CollectSmoke(smoke, "Smoke");
+  blocks.Surfaces = CollectSurfaces(FindBlock(lightField, "Surfaces"), "Surfaces");
+  blocks.Emitters = CollectSurfaces(FindBlock(lightField, "Emitters"), "Emitters");
+
+  SceneOptions options;
+  options.Albedo = NeededNumber(lightField, "Albedo");
+  // Light fields from elsewhere may know of no sky.
+  FieldNumber(lightField, "SkyLuminance", 0, options.Sky);
+  options.Bands = NeededNumber(lightField, "Bands") == 3.0 ? 3 : 1;
+  for (int band = 0; band < options.Bands; ++band)
+  {
+    options.ExtinctionScale[band] = NeededNumber(lightField, "ExtinctionScale", band);
+  }
+  return BuildScene(blocks, options);
+}
+
+//------------------------------------------------------------------------------
 std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters)
 {
   std::map<int, std::string> names;
@@ -55,68 +106,41 @@ std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitte
   return names;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-LightFieldInput::~LightFieldInput()
-{
-  if (processIsEnding)
-  {
-    static_cast<void>(this->View_.release());
-  }
-}
-
-//------------------------------------------------------------------------------
-const View& LightFieldInput::Get(vtkDataObject* input)
-{
-  if (!input)
-  {
-    throw Error("light field", "there is no input", Remedy);
-  }
-  const vtkMTimeType time = std::max(input->GetMTime(), input->GetUpdateTime());
-  if (!this->View_ || this->Input_ != input || this->InputTime_ != time)
-  {
-    this->View_.reset();
-    this->Load(input);
-    this->Input_ = input;
-    this->InputTime_ = time;
-  }
-  return *this->View_;
-}
-
 //------------------------------------------------------------------------------
 void LightFieldInput::Load(vtkDataObject* input)
 {
   SceneBlocks blocks;
-  vtkDataObject* const smoke = FindBlock(input, "Smoke");
-  if (!smoke)
-  {
-    throw Error("light field", "it has no block named Smoke", Remedy);
-  }
-  blocks.Smoke = CollectSmoke(smoke, "Smoke");
-  blocks.Surfaces = CollectSurfaces(FindBlock(input, "Surfaces"), "Surfaces");
-  blocks.Emitters = CollectSurfaces(FindBlock(input, "Emitters"), "Emitters");
-
-  SceneOptions options;
-  options.Albedo = NeededNumber(input, "Albedo");
-  // Light fields from elsewhere may know of no sky.
-  FieldNumber(input, "SkyLuminance", 0, options.Sky);
-  options.Bands = NeededNumber(input, "Bands") == 3.0 ? 3 : 1;
-  for (int band = 0; band < options.Bands; ++band)
-  {
-    options.ExtinctionScale[band] = NeededNumber(input, "ExtinctionScale", band);
-  }
-  this->Bands_ = options.Bands;
-  SceneDescription description = BuildScene(blocks, options);
+  SceneDescription description = DescribeScene(input, blocks);
+  this->Bands_ = description.Bands;
   if (BandsAreEqual(description))
   {
     description.Bands = 1;
   }
   const int bands = description.Bands;
-  auto scene = std::make_shared<const Scene>(std::move(description));
-  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
   this->SignNames_ = ReadSignNames(blocks.Emitters);
+  const std::vector<vtkDataArray*> arrays = LightArrays(blocks);
+  const bool sameLight =
+    std::equal(arrays.begin(), arrays.end(), this->Light_.begin(), this->Light_.end(),
+      [](vtkDataArray* array, const LightArray& last)
+      { return array && array == last.Array && array->GetMTime() == last.Time; });
+  if (this->View_ && sameLight && this->Scenes_.IsLast(description))
+  {
+    this->Report_ = {{"views set up", 0.0, "the light field holds what it held before"}};
+    return;
+  }
+  this->View_.reset();
+  this->Light_.clear();
+  auto scene = this->Scenes_.Make(std::move(description));
+  this->Report_ = {{"views set up", 1.0, "the light field is another one"},
+    {"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+      scene->SharesShapes() ? "those of the light field before hold the same shapes"
+                            : "shapes are new"}};
+  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
+  for (vtkDataArray* const array : arrays)
+  {
+    this->Light_.push_back({array, array->GetMTime()});
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -2,8 +2,11 @@
 // the same.
 #pragma once
 
+#include "SceneBlocks.h"
+#include "SceneKeeper.h"
 #include "View.h"
 
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkWeakPointer.h>
 
@@ -27,8 +30,8 @@ public:
   LightFieldInput(const LightFieldInput&) = delete;
   LightFieldInput& operator=(const LightFieldInput&) = delete;
 
-  /// The view of a light field; built anew only where the input changed. Throws Error where the
-  /// input is not the output of SmokeLightField.
+  /// The view of a light field; built anew only where the input's content changed. Throws Error
+  /// where the input is not the output of SmokeLightField.
   const View& Get(vtkDataObject* input);
 
   /// Bands that the last input was made with; the view has fewer where they came out equal.
@@ -38,15 +41,34 @@ public:
   /// The ids of the signs of the last input, for messages.
   std::string SignIds() const;
 
+  /// What the last Get did and kept.
+  const std::vector<WorkItem>& Report() const { return this->Report_; }
+
 private:
+  /// An array of the light field, without a claim to its memory.
+  struct LightArray
+  {
+    vtkWeakPointer<vtkDataArray> Array;
+    vtkMTimeType Time;
+  };
   void Load(vtkDataObject* input);
 
   vtkWeakPointer<vtkDataObject> Input_;
   vtkMTimeType InputTime_ = 0;
   int Bands_ = 1;
   std::map<int, std::string> SignNames_;
+  SceneKeeper Scenes_;
+  std::vector<LightArray> Light_;
+  std::vector<WorkItem> Report_;
   std::unique_ptr<const View> View_;
 };
+
+/// Describes the scene of a light field, whose parts `blocks` receives. Throws Error where the
+/// input is not the output of SmokeLightField.
+SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks);
+
+/// The names that emitters give to the ids of signs.
+std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters);
 
 /// A number of field data of a light field, in the collection's own field data or, where a file
 /// format dropped those, in those of a block. Returns false where there is none.

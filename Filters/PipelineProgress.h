@@ -1,47 +1,98 @@
-// Lets the solver report to a VTK algorithm, and learn from it that it should stop.
+// Runs long work for a VTK algorithm so that it reports how far it is and stops when it is asked
+// to.
 #pragma once
 
+#include "Errors.h"
 #include "Progress.h"
 
 #include <vtkAlgorithm.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
 
 namespace smokevis
 {
 
-/// Maps the progress of a piece of work to a part of an algorithm's. Report runs on the pipeline
-/// thread, the only one that may talk to the algorithm.
-class PipelineProgress : public Progress
+/// Keeps what was reported for another thread to read.
+class SharedProgress : public Progress
 {
 public:
-  /// @param begin,end the algorithm's progress when the work begins and ends
-  explicit PipelineProgress(vtkAlgorithm* algorithm, double begin = 0.0, double end = 1.0)
-      : Algorithm_(algorithm), Begin_(begin), End_(end)
-  {
-  }
-
   void Report(double fraction) override
   {
-    // Drawing a progress bar takes longer than the smallest pieces of work.
-    const auto now = std::chrono::steady_clock::now();
-    if (now - this->Last_ < std::chrono::milliseconds(50))
-    {
-      return;
-    }
-    this->Last_ = now;
-    this->Algorithm_->UpdateProgress(this->Begin_ + fraction * (this->End_ - this->Begin_));
-    if (this->Algorithm_->CheckAbort())
-    {
-      this->Stop();
-    }
+    // Only the thread that does the work writes, so that nothing is lost in between.
+    this->Fraction_.store(std::max(fraction, this->Fraction_.load()));
   }
 
+  double Fraction() const { return this->Fraction_.load(); }
+
 private:
-  vtkAlgorithm* Algorithm_;
-  double Begin_;
-  double End_;
-  std::chrono::steady_clock::time_point Last_;
+  std::atomic<double> Fraction_{0.0};
 };
+
+/// Does work on a thread of its own, while the caller's thread, the only one that may talk to the
+/// algorithm, reports its progress and listens for an abort twenty times a second: however long a
+/// step of the work is, ShouldStop turns true at once. Returns when the work has ended, and throws
+/// what it threw.
+/// @param begin,end the algorithm's progress when the work begins and ends
+inline void RunWithProgress(
+  vtkAlgorithm* algorithm, double begin, double end, const std::function<void(Progress&)>& work)
+{
+  constexpr std::chrono::milliseconds interval(50);
+  const auto checkAbort = [algorithm]
+  {
+    if (algorithm->CheckAbort())
+    {
+      throw Error("the work", "it was stopped", "Update again to have it done");
+    }
+  };
+  checkAbort();
+  SharedProgress progress;
+  std::exception_ptr problem;
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool isDone = false;
+  std::thread worker(
+    [&]
+    {
+      try
+      {
+        work(progress);
+      }
+      catch (...)
+      {
+        problem = std::current_exception();
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      isDone = true;
+      ended.notify_one();
+    });
+  const auto hasEnded = [&]
+  {
+    std::unique_lock<std::mutex> lock(mutex);
+    return ended.wait_for(lock, interval, [&] { return isDone; });
+  };
+  while (!hasEnded())
+  {
+    algorithm->UpdateProgress(begin + progress.Fraction() * (end - begin));
+    if (algorithm->CheckAbort())
+    {
+      progress.Stop();
+    }
+  }
+  worker.join();
+  if (problem)
+  {
+    std::rethrow_exception(problem);
+  }
+  algorithm->UpdateProgress(end);
+  // The work may have been over before it noticed.
+  checkAbort();
+}
 
 } // namespace smokevis

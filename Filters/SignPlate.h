@@ -86,7 +86,7 @@ struct SignPlate
 /// The standard that a preset is from and what it says, in a sentence; empty for Custom.
 std::string PresetSource(SignPreset preset);
 
-/// The grey levels of an image file, 0 to 1, bottom row first.
+/// The luminances of the pixels of an image file, linear, 0 to 1, bottom row first.
 struct Stencil
 {
   int Width = 0;

@@ -1,5 +1,6 @@
 // How standards want exit signs to look. Luminances are the least that they allow, so that what is
-// found for a preset holds for every sign that meets the standard.
+// found for a preset holds for every sign that meets the standard. The README says where each
+// number was read; the standards themselves were not at hand.
 #include "SignPlate.h"
 
 #include <algorithm>
@@ -73,8 +74,7 @@ std::string PresetSource(SignPreset preset)
   {
   case SignPreset::En1838:
     return "EN 1838:2013, 5: any area of the safety colour at least 2 cd/m2, white at least 5 "
-           "times "
-           "that; pictogram in the spirit of ISO 7010, E001";
+           "times that; pictogram in the spirit of ISO 7010, E001";
   case SignPreset::En1838Smoke:
     return "EN 1838 with 10 cd/m2 of the safety colour, as is asked for where smoke can arise, and "
            "white at least 5 times that";
@@ -83,8 +83,7 @@ std::string PresetSource(SignPreset preset)
            "least 0.12; seen by ambient light alone";
   case SignPreset::Ul924Stencil:
     return "UL 924: letters of at least 0.06 footlambert (0.205 cd/m2) on a dark ground, stroke "
-           "1/8 "
-           "of their height";
+           "1/8 of their height";
   case SignPreset::Ul924Panel:
     return "UL 924: dark letters of 0.06 footlambert (0.205 cd/m2) on a ground twice as bright, "
            "contrast 0.5, stroke 1/8 of their height";

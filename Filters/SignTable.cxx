@@ -2,6 +2,7 @@
 #include "ErrorCollector.h"
 #include "Errors.h"
 #include "SignPlate.h"
+#include "TextLines.h"
 
 #include <vtkDelimitedTextReader.h>
 #include <vtkNew.h>
@@ -12,8 +13,9 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <set>
+#include <sstream>
 
 namespace smokevis
 {
@@ -39,14 +41,6 @@ const Names<SignPreset> Presets = {{"Custom", SignPreset::Custom}, {"EN1838", Si
 /// Header of the column that catches fields beyond the last column.
 const std::string Surplus = "#";
 
-std::string Trim(const std::string& text)
-{
-  const char* const blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? std::string()
-                                    : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::string Lower(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -64,38 +58,19 @@ std::string ListOfColumns()
   return list;
 }
 
-/// The lines that hold something, as one text, and the number of each in the file.
-struct Lines
+/// Throws Error where two columns have one name: VTK would keep the last only.
+void CheckHeader(const std::string& line, const std::string& where)
 {
-  std::string Text;
-  std::vector<int> Numbers;
-};
-
-Lines ReadLines(const std::string& fileName)
-{
-  std::ifstream file(fileName);
-  if (!file)
+  std::set<std::string> names;
+  std::istringstream fields(line);
+  for (std::string field; std::getline(fields, field, ',');)
   {
-    throw Error("sign table '" + fileName + "'", "the file cannot be opened",
-      "Give a CSV file with a header line");
-  }
-  Lines lines;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number)
-  {
-    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+    field = Lower(Trimmed(field));
+    if (!field.empty() && !names.insert(field).second)
     {
-      line.erase(0, 3);
+      throw Error(where, "there are two columns '" + field + "'", "Leave one of them out");
     }
-    line = Trim(line);
-    if (line.empty() || line[0] == '#')
-    {
-      continue;
-    }
-    lines.Text += line + (lines.Numbers.empty() ? "," + Surplus : "") + "\n";
-    lines.Numbers.push_back(number);
   }
-  return lines;
 }
 
 /// One row of the table, asked by column.
@@ -112,7 +87,7 @@ public:
   {
     const auto found = this->Columns_.find(column);
     return found == this->Columns_.end() ? std::string()
-                                         : Trim(found->second->GetValue(this->Row_));
+                                         : Trimmed(found->second->GetValue(this->Row_));
   }
 
   template <class Number> Number Get(const std::string& column, Number otherwise) const
@@ -225,28 +200,37 @@ SignPlate ReadSign(const Row& row, const SignPlate& defaults, const std::filesys
 std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlate& defaults)
 {
   const std::string where = "sign table '" + fileName + "'";
-  const Lines lines = ReadLines(fileName);
-  // VTK would take the mark of UTF-16 at its word and never come back.
-  if (lines.Text.find('\0') != std::string::npos || lines.Text.rfind("\xFF\xFE", 0) == 0 ||
-      lines.Text.rfind("\xFE\xFF", 0) == 0)
-  {
-    throw Error(where, "it is not plain text", "Save it as UTF-8, not as UTF-16");
-  }
-  if (lines.Numbers.size() < 2)
+  const std::vector<TextLine> lines =
+    ReadTableLines(where, fileName, "Give a CSV file with a header line");
+  if (lines.size() < 2)
   {
     throw Error(where, "it holds no sign", "Give a header line and a line for each sign");
   }
+  const auto place = [&](std::size_t index)
+  { return where + ", line " + std::to_string(lines[index].Number); };
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const std::string& line = lines[i].Text;
+    if (std::count(line.begin(), line.end(), '"') % 2 != 0)
+    {
+      throw Error(place(i), "a double quote is not closed",
+        "Put a second one at the end of the text, in the same line");
+    }
+    text += line + (i == 0 ? "," + Surplus : "") + "\n";
+  }
+  CheckHeader(lines.front().Text, place(0));
   vtkNew<vtkDelimitedTextReader> reader;
   vtkNew<ErrorCollector> errors;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->ReadFromInputStringOn();
-  reader->SetInputString(lines.Text);
+  reader->SetInputString(text);
   reader->SetHaveHeaders(true);
   reader->SetDetectNumericColumns(false);
   reader->Update();
   vtkTable* table = reader->GetOutput();
-  const auto rows = static_cast<vtkIdType>(lines.Numbers.size()) - 1;
+  const auto rows = static_cast<vtkIdType>(lines.size()) - 1;
   if (!errors->Text().empty() || table->GetNumberOfRows() != rows)
   {
     throw Error(where, "it is not a table of comma-separated values",
@@ -257,12 +241,12 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
   for (vtkIdType i = 0; i < table->GetNumberOfColumns(); ++i)
   {
     auto* const column = vtkStringArray::SafeDownCast(table->GetColumn(i));
-    const std::string name = column ? Lower(Trim(column->GetName())) : std::string();
+    const std::string name = column ? Lower(Trimmed(column->GetName())) : std::string();
     const bool known = std::find(Columns.begin(), Columns.end(), name) != Columns.end();
     if (!known && name != Surplus)
     {
-      throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
-        "the column '" + name + "' is not known", "The columns are " + ListOfColumns());
+      throw Error(place(0), "the column '" + name + "' is not known",
+        "Separate columns by commas. They are " + ListOfColumns());
     }
     columns[name] = column;
   }
@@ -270,8 +254,7 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
   {
     if (columns.count(needed) == 0)
     {
-      throw Error(where + ", line " + std::to_string(lines.Numbers[0]),
-        std::string("the column ") + needed + " is missing",
+      throw Error(place(0), std::string("the column ") + needed + " is missing",
         "Separate columns by commas and name them in the first line");
     }
   }
@@ -280,22 +263,22 @@ std::vector<SignPlate> ReadSignTable(const std::string& fileName, const SignPlat
   std::map<int, int> lineOfId;
   for (vtkIdType i = 0; i < rows; ++i)
   {
-    const int line = lines.Numbers[i + 1];
-    const std::string place = where + ", line " + std::to_string(line);
-    const Row row(columns, i, place);
+    const int line = lines[i + 1].Number;
+    const std::string here = place(i + 1);
+    const Row row(columns, i, here);
     if (!row.Text(Surplus).empty())
     {
-      throw Error(place, "it has more fields than the header",
+      throw Error(here, "it has more fields than the header",
         "Write decimal points, not commas, and put text that holds commas in double quotes");
     }
     SignPlate start = defaults;
     start.Id = defaults.Id + static_cast<int>(i);
-    start.Origin = place;
+    start.Origin = here;
     SignPlate sign = ReadSign(row, start, std::filesystem::path(fileName).parent_path());
     const auto [first, added] = lineOfId.emplace(sign.Id, line);
     if (!added)
     {
-      throw Error(place,
+      throw Error(here,
         "id " + std::to_string(sign.Id) + " was given in line " + std::to_string(first->second),
         "Give each sign its own id");
     }

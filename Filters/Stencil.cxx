@@ -2,6 +2,8 @@
 // crashes on damaged files.
 #include "Errors.h"
 #include "SignPlate.h"
+#include "Srgb.h"
+#include "Types.h"
 
 #include <png.h>
 
@@ -55,19 +57,26 @@ Stencil Stencil::Read(const std::string& fileName)
   Stencil stencil;
   stencil.Width = static_cast<int>(image.width);
   stencil.Height = static_cast<int>(image.height);
-  // What is transparent counts as black.
-  image.format = PNG_FORMAT_GRAY;
-  const png_color background = {0, 0, 0};
+  // Another gamma that the file states is brought to sRGB; of 16 bits, 8 stay. The conversions to
+  // linear values and to grey that libpng has round to 8 bits as well.
+  image.format = PNG_FORMAT_RGBA;
+  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
   // A negative stride puts the bottom row first.
   if (png_image_finish_read(
-        &image, &background, bytes.data(), -static_cast<png_int_32>(image.width), nullptr) == 0)
+        &image, nullptr, bytes.data(), -static_cast<png_int_32>(4 * image.width), nullptr) == 0)
   {
     throw Error(where, std::string("it is damaged (") + image.message + ")", Remedy);
   }
-  for (const png_byte byte : bytes)
+  for (std::size_t i = 0; i < bytes.size(); i += 4)
   {
-    stencil.Grey.push_back(byte / 255.0);
+    Spectrum linear{};
+    for (int band = 0; band < MaxBands; ++band)
+    {
+      linear[band] = DecodeSrgb(bytes[i + band] / 255.0);
+    }
+    // What is transparent counts as black.
+    stencil.Grey.push_back(bytes[i + 3] / 255.0 * Luminance(linear, MaxBands));
   }
   return stencil;
 }

@@ -1,5 +1,6 @@
 #include "vtkExitSignSource.h"
 
+#include "Ranks.h"
 #include "SignPlate.h"
 
 #include <vtkFieldData.h>
@@ -29,55 +30,68 @@ vtkExitSignSource::~vtkExitSignSource()
 }
 
 //------------------------------------------------------------------------------
+int vtkExitSignSource::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkExitSignSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   try
   {
-    smokevis::SignPlate sign;
-    sign.Id = this->SignId;
-    sign.Centre = {this->Center[0], this->Center[1], this->Center[2]};
-    sign.Normal = {this->Normal[0], this->Normal[1], this->Normal[2]};
-    sign.Up = {this->Up[0], this->Up[1], this->Up[2]};
-    sign.Width = this->Width;
-    sign.Height = this->Height;
-    sign.Pattern = static_cast<smokevis::SignPattern>(this->Pattern);
-    sign.Design = static_cast<smokevis::SignDesign>(this->Design);
-    sign.Bars = this->Bars;
-    sign.BarFraction = this->BarFraction;
-    sign.SquareFraction = this->SquareFraction;
-    sign.PatternFile = this->PatternFile ? this->PatternFile : "";
-    sign.Text = this->Text ? this->Text : "";
-    sign.FigureHeight = this->FigureHeight;
-    sign.Luminance = this->Luminance;
-    sign.UnlitLuminance = this->UnlitLuminance;
-    sign.Uniformity = this->Uniformity;
-    sign.EmissionExponent = this->EmissionExponent;
-    std::copy_n(this->Color, 3, sign.Colour);
-    std::copy_n(this->UnlitColor, 3, sign.UnlitColour);
-    sign.Reflectance = this->Reflectance;
-    sign.UnlitReflectance = this->UnlitReflectance;
-    const auto preset = static_cast<smokevis::SignPreset>(this->Preset);
-    sign.Apply(preset);
-
-    smokevis::PlateMesh mesh;
-    if (this->SignTable && *this->SignTable)
-    {
-      for (const smokevis::SignPlate& row : smokevis::ReadSignTable(this->SignTable, sign))
+    smokevis::Ranks().Together(this,
+      [&]
       {
-        smokevis::AddSign(row, mesh);
-      }
-    }
-    else
-    {
-      smokevis::AddSign(sign, mesh);
-    }
-    output->ShallowCopy(mesh.Finish());
-    vtkNew<vtkStringArray> source;
-    source->SetName("PresetSource");
-    source->InsertNextValue(smokevis::PresetSource(preset));
-    output->GetFieldData()->AddArray(source);
+        smokevis::SignPlate sign;
+        sign.Id = this->SignId;
+        sign.Centre = {this->Center[0], this->Center[1], this->Center[2]};
+        sign.Normal = {this->Normal[0], this->Normal[1], this->Normal[2]};
+        sign.Up = {this->Up[0], this->Up[1], this->Up[2]};
+        sign.Width = this->Width;
+        sign.Height = this->Height;
+        sign.Pattern = static_cast<smokevis::SignPattern>(this->Pattern);
+        sign.Design = static_cast<smokevis::SignDesign>(this->Design);
+        sign.Bars = this->Bars;
+        sign.BarFraction = this->BarFraction;
+        sign.SquareFraction = this->SquareFraction;
+        sign.PatternFile = this->PatternFile ? this->PatternFile : "";
+        sign.Text = this->Text ? this->Text : "";
+        sign.FigureHeight = this->FigureHeight;
+        sign.Luminance = this->Luminance;
+        sign.UnlitLuminance = this->UnlitLuminance;
+        sign.Uniformity = this->Uniformity;
+        sign.EmissionExponent = this->EmissionExponent;
+        std::copy_n(this->Color, 3, sign.Colour);
+        std::copy_n(this->UnlitColor, 3, sign.UnlitColour);
+        sign.Reflectance = this->Reflectance;
+        sign.UnlitReflectance = this->UnlitReflectance;
+        const auto preset = static_cast<smokevis::SignPreset>(this->Preset);
+        sign.Apply(preset);
+
+        smokevis::PlateMesh mesh;
+        if (this->SignTable && *this->SignTable)
+        {
+          for (const smokevis::SignPlate& row : smokevis::ReadSignTable(this->SignTable, sign))
+          {
+            smokevis::AddSign(row, mesh);
+          }
+        }
+        else
+        {
+          smokevis::AddSign(sign, mesh);
+        }
+        output->ShallowCopy(mesh.Finish());
+        vtkNew<vtkStringArray> source;
+        source->SetName("PresetSource");
+        source->InsertNextValue(smokevis::PresetSource(preset));
+        output->GetFieldData()->AddArray(source);
+      });
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)

@@ -168,9 +168,10 @@ public:
 
   ///@{
   /**
-   * PNG file of the pattern IMAGE, with at most 250000 pixels. Its grey level, taken as linear,
-   * leads from ground (black) to figure (white); rectangles of one grey level become cells.
-   * Default: none.
+   * PNG file of the pattern IMAGE, with at most 250000 pixels. The luminance of a pixel, with its
+   * sRGB values (or those of the gamma that the file states) made linear first, leads from ground
+   * (0) to figure (1): grey 128 is 0.22, pure red 0.21, what is transparent 0. Rectangles of one
+   * level become cells. Default: none.
    */
   vtkSetFilePathMacro(PatternFile);
   vtkGetFilePathMacro(PatternFile);
@@ -284,6 +285,7 @@ protected:
   vtkExitSignSource();
   ~vtkExitSignSource() override;
 
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -1,9 +1,14 @@
 #include "vtkFloorMapOfVisibility.h"
 
 #include "Errors.h"
+#include "EyeProperties.h"
 #include "FloorMap.h"
+#include "Identity.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "WholeInput.h"
 
 #include <vtkFloatArray.h>
@@ -11,25 +16,33 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <tuple>
 
 vtkStandardNewMacro(vtkFloorMapOfVisibility);
 
 struct vtkFloorMapOfVisibility::Internals
 {
   smokevis::LightFieldInput Input;
+  smokevis::KeptOutput Kept;
+  /// What Kept was made of: the light field, and the filter's properties as of then.
+  smokevis::Identity MadeOf;
+  vtkMTimeType MadeWith = 0;
 };
 
 namespace
 {
 
 constexpr double MaximumValues = 1e8;
+/// Arrays with a value a place, and with one a place and sign: the solver's and the output's.
+constexpr double PlaceBytes = 2 * 8 * sizeof(float);
+constexpr double SignBytes = 2 * 4 * sizeof(float);
 
 using smokevis::Error;
 using smokevis::Vec3;
@@ -77,6 +90,14 @@ vtkFloorMapOfVisibility::vtkFloorMapOfVisibility() : Implementation(std::make_un
 vtkFloorMapOfVisibility::~vtkFloorMapOfVisibility() = default;
 
 //------------------------------------------------------------------------------
+int vtkFloorMapOfVisibility::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkFloorMapOfVisibility::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
@@ -91,6 +112,7 @@ int vtkFloorMapOfVisibility::RequestInformation(
     0, std::max(1, this->Resolution[0]) - 1, 0, std::max(1, this->Resolution[1]) - 1, 0, 0};
   outputVector->GetInformationObject(0)->Set(
     vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -122,38 +144,33 @@ void vtkFloorMapOfVisibility::CheckProperties() const
     "Give 0.2 for the point of disappearance");
   check(notNegative(this->ThresholdSpread), "ThresholdSpread", "it is negative",
     "Give 0.04, or 0 for observers who are all alike");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
   check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(
-    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
-  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
-    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
-void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
+smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View& view) const
 {
   this->CheckProperties();
-  const smokevis::View& view = this->Implementation->Input.Get(input);
+  const smokevis::Adaptation state{
+    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  const smokevis::Observer eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   const std::vector<smokevis::Sign>& signs = view.TheScene().Lights().Signs();
   if (signs.empty())
   {
     throw Error("floor map", "the light field holds no sign",
       "Give emitters with a SignId from 0, such as the source ExitSign makes");
   }
-  const double values = static_cast<double>(this->Resolution[0]) * this->Resolution[1] *
-                        static_cast<double>(signs.size());
-  if (values > MaximumValues)
+  const double places = static_cast<double>(this->Resolution[0]) * this->Resolution[1];
+  if (places * static_cast<double>(signs.size()) > MaximumValues)
   {
     throw Error("Resolution",
       "the map would hold more than 100 million values, places times " +
         std::to_string(signs.size()) + " signs",
       "Give fewer places");
   }
+
+  smokevis::RequireMemory("Resolution", "the map",
+    places * (PlaceBytes + SignBytes * static_cast<double>(signs.size())), "Give fewer places");
 
   const smokevis::Medium& smoke = view.TheScene().Smoke();
   double bounds[6] = {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y,
@@ -186,11 +203,53 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     bounds[0] + 0.5 * options.StepX, bounds[2] + 0.5 * options.StepY, bounds[4] + this->EyeHeight};
   options.ContrastThreshold = this->ContrastThreshold;
   options.CutOff = this->CutOff;
-  options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  options.Eye = eye;
   options.ThresholdSpread = this->ThresholdSpread;
-  options.State = {this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
-  smokevis::PipelineProgress progress(this, 0.05, 0.98);
-  const smokevis::FloorMap map = smokevis::ComputeFloorMap(view, options, progress);
+  options.State = state;
+  return options;
+}
+
+//------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
+{
+  const smokevis::Ranks ranks;
+  const smokevis::View* view = nullptr;
+  smokevis::FloorMapOptions options;
+  smokevis::FloorMap map;
+  const auto start = std::chrono::steady_clock::now();
+  ranks.Together(this,
+    [&]
+    {
+      view = &this->Implementation->Input.Get(input);
+      options = this->Prepare(*view);
+      const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
+      std::tie(options.First, options.End) = ranks.Share(places);
+      smokevis::RunWithProgress(this, 0.05, 0.98,
+        [&](smokevis::Progress& progress)
+        { map = smokevis::ComputeFloorMap(*view, options, progress); });
+    });
+  const std::vector<double> seconds =
+    ranks.Each(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const std::size_t places = map.Status.size();
+  ranks.Complete(map.Status, places);
+  ranks.Complete(map.BestSign, places);
+  for (std::vector<float>* const values : {&map.Visibility, &map.VisibilityError, &map.OpticalDepth,
+         &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance, &map.Contrast,
+         &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction})
+  {
+    ranks.Complete(*values, places);
+  }
+  for (smokevis::WorkItem& item : map.Report)
+  {
+    item.Count = ranks.Sum(item.Count);
+  }
+  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
+  {
+    const auto [first, end] = ranks.Share(places, rank);
+    map.Report.push_back({"seconds of process " + std::to_string(rank), seconds[rank],
+      "for " + std::to_string(end - first) + " places"});
+  }
+  const std::vector<smokevis::Sign>& signs = view->TheScene().Lights().Signs();
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);
@@ -218,7 +277,10 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   output->GetPointData()->SetActiveScalars("Visibility");
   output->GetFieldData()->AddArray(ids);
   smokevis::AddFieldTexts(*output, "SignNames", names);
-  smokevis::AddWorkReport(*output, map.Report);
+  smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
+  std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
+  report.insert(report.end(), map.Report.begin(), map.Report.end());
+  smokevis::AddWorkReport(*output, report);
 }
 
 //------------------------------------------------------------------------------
@@ -226,18 +288,39 @@ int vtkFloorMapOfVisibility::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* output = vtkImageData::GetData(outputVector);
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  Internals& own = *this->Implementation;
+  const smokevis::Identity identity = smokevis::IdentityOf(input);
   try
   {
-    this->Compute(vtkDataObject::GetData(inputVector[0]), output);
+    // A parallel run asks for the whole and for pieces in turn: the work is done once.
+    const bool isNew =
+      !own.Kept.Has(0) || own.MadeOf != identity || own.MadeWith != this->GetMTime();
+    if (smokevis::Ranks().Most(isNew ? 1 : 0) > 0)
+    {
+      own.MadeWith = 0;
+      this->Compute(input, output);
+      own.Kept.Keep(outputVector, 0);
+      own.MadeOf = identity;
+      own.MadeWith = this->GetMTime();
+    }
+    else
+    {
+      own.Kept.Show(outputVector, 0);
+    }
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -10,15 +10,17 @@
  * lit cells as it arrives [cd/m2]) and `VisibleFraction`, float, a component a sign, named after
  * it;
  * - `VisibleProbability`, float, the share of observers who see the best sign, the contrast at
- * which it is lost being normally distributed over them (ContrastThreshold, ThresholdSpread);
+ * which it is lost being normally distributed over them (ContrastThreshold, ThresholdSpread); what
+ * varies over a plate for another reason than its pattern, such as a lamp at its side, is contrast
+ * too;
  * - `EyeLuminance`, float [cd/m2], what counts as the eye's own noise when it looks at the best
  * sign: DarkLuminance and what adaptation and glare add;
  * - `OpticalDepth` and `JinVisibility` (3 / mean extinction [m]), float, along the line to the best
  *   sign;
  * - `Status`, int: SEEN, BELOW_THRESHOLD, NO_SIGN_IN_VIEW, INSIDE_SOLID.
  *
- * Field data: `SignIds` and `SignNames` in the order of the components, and what was done and left
- * out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
+ * Field data: `SignIds` and `SignNames` in the order of the components, `ContrastThreshold`, and
+ * what was done and left out as `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`.
  */
 #ifndef vtkFloorMapOfVisibility_h
 #define vtkFloorMapOfVisibility_h
@@ -27,6 +29,12 @@
 #include <vtkImageAlgorithm.h>
 
 #include <memory>
+
+namespace smokevis
+{
+struct FloorMapOptions;
+class View;
+}
 
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
 {
@@ -153,6 +161,8 @@ protected:
   vtkFloorMapOfVisibility();
   ~vtkFloorMapOfVisibility() override;
 
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -163,6 +173,8 @@ private:
   void operator=(const vtkFloorMapOfVisibility&) = delete;
 
   void CheckProperties() const;
+  /// Checks what is asked for against the light field.
+  smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;

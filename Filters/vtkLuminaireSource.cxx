@@ -5,6 +5,7 @@
 #include "PhotometricArrays.h"
 #include "PhotometricFile.h"
 #include "PlateMesh.h"
+#include "Ranks.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -169,61 +170,76 @@ void vtkLuminaireSource::CheckProperties(double width, double height) const
 }
 
 //------------------------------------------------------------------------------
+int vtkLuminaireSource::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkLuminaireSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   try
   {
-    const Lamp lamp = this->PhotometricFile && *this->PhotometricFile
-                        ? MeasuredLamp(smokevis::PhotometricFile::Read(this->PhotometricFile),
-                            this->Width, this->Height, this->LuminousFlux, this->SizeFromFile != 0)
-                        : EvenLamp(this->Width, this->Height, this->Luminance, this->LuminousFlux);
-    this->CheckProperties(lamp.Width, lamp.Height);
-    const auto grid =
-      smokevis::PlateFrame::Make({this->Center[0], this->Center[1], this->Center[2]},
-        {this->Normal[0], this->Normal[1], this->Normal[2]},
-        {this->Up[0], this->Up[1], this->Up[2]}, "lamp");
-
-    smokevis::PlateMesh mesh;
-    for (int j = 0; j < this->Count[1]; ++j)
-    {
-      for (int i = 0; i < this->Count[0]; ++i)
+    smokevis::Ranks().Together(this,
+      [&]
       {
-        const smokevis::Vec3 centre =
-          grid.Centre + (i - 0.5 * (this->Count[0] - 1)) * this->Spacing[0] * grid.Right +
-          (j - 0.5 * (this->Count[1] - 1)) * this->Spacing[1] * grid.Up;
-        for (const Side& side : lamp.Sides)
+        const Lamp lamp =
+          this->PhotometricFile && *this->PhotometricFile
+            ? MeasuredLamp(smokevis::PhotometricFile::Read(this->PhotometricFile), this->Width,
+                this->Height, this->LuminousFlux, this->SizeFromFile != 0)
+            : EvenLamp(this->Width, this->Height, this->Luminance, this->LuminousFlux);
+        this->CheckProperties(lamp.Width, lamp.Height);
+        const auto grid =
+          smokevis::PlateFrame::Make({this->Center[0], this->Center[1], this->Center[2]},
+            {this->Normal[0], this->Normal[1], this->Normal[2]},
+            {this->Up[0], this->Up[1], this->Up[2]}, "lamp");
+
+        smokevis::PlateMesh mesh;
+        for (int j = 0; j < this->Count[1]; ++j)
         {
-          smokevis::PlateMesh::Plate plate;
-          plate.Frame = side.Back ? smokevis::PlateFrame::Make(centre - lamp.Depth * grid.Normal,
-                                      -grid.Normal, grid.Up, "lamp")
-                                  : grid;
-          plate.Frame.Centre = side.Back ? plate.Frame.Centre : centre;
-          smokevis::CellLook look;
-          look.Luminance = smokevis::ColouredLuminance(side.Luminance, this->Color, "lamp");
-          look.Reflectance.fill(this->Reflectance);
-          mesh.Add(plate, {-0.5 * lamp.Width, 0.5 * lamp.Width},
-            {-0.5 * lamp.Height, 0.5 * lamp.Height},
-            [&look](std::size_t, std::size_t) { return look; });
+          for (int i = 0; i < this->Count[0]; ++i)
+          {
+            const smokevis::Vec3 centre =
+              grid.Centre + (i - 0.5 * (this->Count[0] - 1)) * this->Spacing[0] * grid.Right +
+              (j - 0.5 * (this->Count[1] - 1)) * this->Spacing[1] * grid.Up;
+            for (const Side& side : lamp.Sides)
+            {
+              smokevis::PlateMesh::Plate plate;
+              plate.Frame = side.Back
+                              ? smokevis::PlateFrame::Make(
+                                  centre - lamp.Depth * grid.Normal, -grid.Normal, grid.Up, "lamp")
+                              : grid;
+              plate.Frame.Centre = side.Back ? plate.Frame.Centre : centre;
+              smokevis::CellLook look;
+              look.Luminance = smokevis::ColouredLuminance(side.Luminance, this->Color, "lamp");
+              look.Reflectance.fill(this->Reflectance);
+              mesh.Add(plate, {-0.5 * lamp.Width, 0.5 * lamp.Width},
+                {-0.5 * lamp.Height, 0.5 * lamp.Height},
+                [&look](std::size_t, std::size_t) { return look; });
+            }
+          }
         }
-      }
-    }
-    output->ShallowCopy(mesh.Finish());
-    if (!lamp.Sides.front().Photometry.Candela.empty())
-    {
-      AddPhotometry(*output, lamp, grid.Up);
-    }
-    smokevis::AddFieldNumber(*output, "LampFlux", {lamp.Flux});
-    smokevis::AddFieldNumber(*output, "RatedFlux", {lamp.RatedFlux});
-    if (this->LuminousFlux == 0.0 && lamp.RatedFlux > 0.0 &&
-        lamp.Flux > FluxTolerance * lamp.RatedFlux)
-    {
-      vtkWarningMacro(<< "photometric file '" << this->PhotometricFile
-                      << "': its intensities add up "
-                      << "to " << lamp.Flux << " lm, more than the " << lamp.RatedFlux
-                      << " lm of its light source. Check its candela multiplier.");
-    }
+        output->ShallowCopy(mesh.Finish());
+        if (!lamp.Sides.front().Photometry.Candela.empty())
+        {
+          AddPhotometry(*output, lamp, grid.Up);
+        }
+        smokevis::AddFieldNumber(*output, "LampFlux", {lamp.Flux});
+        smokevis::AddFieldNumber(*output, "RatedFlux", {lamp.RatedFlux});
+        if (this->LuminousFlux == 0.0 && lamp.RatedFlux > 0.0 &&
+            lamp.Flux > FluxTolerance * lamp.RatedFlux)
+        {
+          vtkWarningMacro(<< "photometric file '" << this->PhotometricFile
+                          << "': its intensities add up "
+                          << "to " << lamp.Flux << " lm, more than the " << lamp.RatedFlux
+                          << " lm of its light source. Check its candela multiplier.");
+        }
+      });
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)

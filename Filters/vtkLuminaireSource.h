@@ -148,6 +148,7 @@ protected:
   vtkLuminaireSource();
   ~vtkLuminaireSource() override;
 
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

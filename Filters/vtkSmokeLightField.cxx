@@ -1,10 +1,15 @@
 #include "vtkSmokeLightField.h"
 
 #include "Errors.h"
+#include "Identity.h"
+#include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "SceneBuilder.h"
+#include "SceneKeeper.h"
 #include "SurfaceRefiner.h"
 #include "WholeInput.h"
 
@@ -17,10 +22,12 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkStringArray.h>
 
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +42,12 @@ constexpr double ReferenceWavelength = 633.0;
 constexpr double DefaultAlbedo = 0.3;
 /// Patches along the diagonal of all geometry.
 constexpr double AutomaticPatches = 50.0;
+/// What the solver and the output take for each smoke cell and surface patch, at their peak
+/// [bytes]: so much at all, and so much more a band (measured: 250 with one band, 560 with three).
+constexpr double CellBytes = 160.0;
+constexpr double CellBandBytes = 130.0;
+constexpr double PatchBytes = 500.0;
+constexpr double PatchBandBytes = 280.0;
 /// Ratio of sizes beyond which surfaces and smoke are likely in different units.
 constexpr double SuspiciousRatio = 100.0;
 
@@ -134,12 +147,81 @@ void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, 
   output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name);
 }
 
+/// Adds what each process of a parallel run did: every one of them solves the whole.
+void ReportRanks(const smokevis::Ranks& ranks, vtkPartitionedDataSetCollection& output, double own)
+{
+  constexpr double kibibyte = 1024.0;
+  const std::vector<double> seconds = ranks.Each(own);
+  const std::vector<double> bytes =
+    ranks.Each(kibibyte * static_cast<double>(output.GetActualMemorySize()));
+  vtkFieldData* const fields = output.GetFieldData();
+  auto* const what = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhat"));
+  auto* const why = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhy"));
+  vtkDataArray* const count = fields->GetArray("WorkReportCount");
+  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
+  {
+    const std::string process = " of process " + std::to_string(rank);
+    what->InsertNextValue("seconds" + process);
+    count->InsertNextTuple1(seconds[rank]);
+    why->InsertNextValue("each process solves the whole light field");
+    what->InsertNextValue("bytes" + process);
+    count->InsertNextTuple1(bytes[rank]);
+    why->InsertNextValue("each process holds the whole light field");
+  }
+}
+
+/// Leaves every so many-th block, which a view of a parallel run is to draw.
+void DivideBlocks(vtkPartitionedDataSetCollection& output, const std::pair<int, int>& piece)
+{
+  for (unsigned int i = 0; i < output.GetNumberOfPartitionedDataSets(); ++i)
+  {
+    for (unsigned int j = 0; j < output.GetNumberOfPartitions(i); ++j)
+    {
+      if (static_cast<int>(j) % piece.second != piece.first)
+      {
+        output.SetPartition(i, j, static_cast<vtkDataObject*>(nullptr));
+      }
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSmokeLightField::vtkSmokeLightField()
+struct vtkSmokeLightField::Internals
+{
+  /// How the light of the last scene was solved, and the blocks that hold it; none: no blocks.
+  struct SolvedLight
+  {
+    SceneBlocks Blocks;
+    double Tolerance = 0.0;
+    int Seed = 0;
+    int Bands = 0;
+  };
+
+  smokevis::KeptOutput Kept;
+  /// What Kept was made of: the inputs, and the filter's properties as of then.
+  std::vector<std::uint64_t> MadeOf;
+  vtkMTimeType MadeWith = 0;
+  smokevis::SceneKeeper Scenes;
+  SolvedLight Solved;
+};
+
+//------------------------------------------------------------------------------
+vtkSmokeLightField::vtkSmokeLightField() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+vtkSmokeLightField::~vtkSmokeLightField() = default;
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -153,6 +235,14 @@ int vtkSmokeLightField::FillInputPortInformation(int port, vtkInformation* info)
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSmokeLightField::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -217,6 +307,27 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
                       << "data the filter Transform.");
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
+  const SceneBlocks& blocks, std::vector<smokevis::WorkItem>& report)
+{
+  const auto scene = this->Implementation->Scenes.Make(std::move(description));
+  report.push_back({"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+    scene->SharesShapes() ? "those of the light field before hold the same shapes"
+                          : "shapes are new"});
+  smokevis::LightFieldOptions solver;
+  solver.Tolerance = this->Tolerance;
+  solver.Seed = static_cast<std::uint64_t>(this->Seed);
+  // TBB warns on the console about threads that the machine does not have.
+  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
+  smokevis::LightField field;
+  smokevis::RunWithProgress(this, 0.02, 0.98,
+    [&](smokevis::Progress& progress)
+    { field = smokevis::SolveLightField(*scene, solver, progress); });
+  report.insert(report.end(), field.Report.begin(), field.Report.end());
+  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
 }
 
 //------------------------------------------------------------------------------
@@ -294,22 +405,43 @@ void vtkSmokeLightField::Solve(
   }
   report.push_back({"Albedo", options.Albedo, why});
 
+  double cells = 0.0;
+  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+  {
+    cells += static_cast<double>(block.Grid->GetNumberOfCells());
+  }
+  double count = 0.0;
+  for (const SurfaceBlock* const block : patches)
+  {
+    count += static_cast<double>(block->Mesh->GetNumberOfCells());
+  }
+  smokevis::RequireMemory("light field",
+    "the light of " + std::to_string(std::llround(cells)) + " smoke cells and " +
+      std::to_string(std::llround(count)) + " surface patches",
+    cells * (CellBytes + CellBandBytes * this->Bands) +
+      count * (PatchBytes + PatchBandBytes * this->Bands),
+    "Give coarser smoke, one band or a larger PatchSize");
+
   smokevis::SceneDescription description = smokevis::BuildScene(blocks, options);
   if (this->Bands == RGB && smokevis::BandsAreEqual(description))
   {
     description.Bands = 1;
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
   }
-  const smokevis::Scene scene(std::move(description));
-  smokevis::LightFieldOptions solver;
-  solver.Tolerance = this->Tolerance;
-  solver.Seed = static_cast<std::uint64_t>(this->Seed);
-  // TBB warns on the console about threads that the machine does not have.
-  solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
-  smokevis::PipelineProgress progress(this, 0.02, 0.98);
-  smokevis::LightField field = smokevis::SolveLightField(scene, solver, progress);
-  report.insert(report.end(), field.Report.begin(), field.Report.end());
-  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+  Internals::SolvedLight& last = this->Implementation->Solved;
+  if (last.Tolerance == this->Tolerance && last.Seed == this->Seed && last.Bands == this->Bands &&
+      this->Implementation->Scenes.IsLast(description) &&
+      smokevis::ShareLightField(last.Blocks, blocks))
+  {
+    report.push_back({"light fields solved", 0.0,
+      "smoke, surfaces and emitters are those of the light field before, which is kept"});
+  }
+  else
+  {
+    last = {};
+    this->SolveBlocks(std::move(description), blocks, report);
+    last = {blocks, this->Tolerance, this->Seed, this->Bands};
+  }
 
   output->SetNumberOfPartitionedDataSets(3);
   AddPartitions(output, 0, "Smoke", blocks.Smoke);
@@ -362,18 +494,51 @@ int vtkSmokeLightField::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
+  Internals& own = *this->Implementation;
+  const smokevis::Ranks ranks;
   try
   {
-    this->Solve(inputVector, output);
+    // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
+    // the same contents its former output is divided in another way, and nothing else is done.
+    std::vector<std::uint64_t> contents;
+    for (int port = 0; port < this->GetNumberOfInputPorts() && ranks.Count() > 1; ++port)
+    {
+      for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+      {
+        contents.push_back(port);
+        contents.push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
+      }
+    }
+    const bool isNew = ranks.Count() == 1 || !own.Kept.Has(0) || own.MadeOf != contents ||
+                       own.MadeWith != this->GetMTime();
+    if (ranks.Most(isNew ? 1 : 0) > 0)
+    {
+      own.MadeWith = 0;
+      const auto start = std::chrono::steady_clock::now();
+      ranks.Together(this, [&] { this->Solve(inputVector, output); });
+      ReportRanks(ranks, *output,
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      own.Kept.Keep(outputVector, 0);
+      own.MadeOf = contents;
+      own.MadeWith = this->GetMTime();
+    }
+    else
+    {
+      own.Kept.Show(outputVector, 0);
+    }
+    DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
+      DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
       return 1;
     }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

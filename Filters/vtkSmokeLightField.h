@@ -41,10 +41,15 @@
 #include "SmokeFiltersModule.h"
 #include <vtkPartitionedDataSetCollectionAlgorithm.h>
 
+#include <memory>
+#include <vector>
+
 namespace smokevis
 {
 struct SceneBlocks;
-}
+struct SceneDescription;
+struct WorkItem;
+} // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkSmokeLightField : public vtkPartitionedDataSetCollectionAlgorithm
 {
@@ -156,9 +161,12 @@ public:
 
 protected:
   vtkSmokeLightField();
-  ~vtkSmokeLightField() override = default;
+  ~vtkSmokeLightField() override;
 
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -171,6 +179,9 @@ private:
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
   void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+  /// Solves the light field of a scene and stores it in the scene's blocks.
+  void SolveBlocks(smokevis::SceneDescription description, const smokevis::SceneBlocks& blocks,
+    std::vector<smokevis::WorkItem>& report);
 
   double Albedo = -1.0;
   double AngstromExponent = 1.0;
@@ -182,6 +193,9 @@ private:
   int Seed = 1;
   double PatchSize = 0.0;
   int Threads = 0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Implementation;
 };
 
 #endif

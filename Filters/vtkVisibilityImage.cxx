@@ -3,10 +3,14 @@
 #include "Contrast.h"
 #include "Errors.h"
 #include "Eye.h"
+#include "EyeProperties.h"
 #include "ImageTracer.h"
+#include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
+#include "Ranks.h"
 #include "ThinLens.h"
 #include "WholeInput.h"
 
@@ -16,7 +20,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -32,6 +35,7 @@ vtkStandardNewMacro(vtkVisibilityImage);
 struct vtkVisibilityImage::Internals
 {
   smokevis::LightFieldInput Input;
+  smokevis::KeptOutput Kept;
   /// Of filter and input when the image could not be made, 0: it could.
   vtkMTimeType FailedFilter = 0;
   vtkMTimeType FailedInput = 0;
@@ -43,6 +47,9 @@ namespace
 /// In metres.
 constexpr double Millimetre = 1e-3;
 constexpr std::int64_t MaximumPixels = 100000000;
+/// Of all arrays: the tracer's (two where the lens blurs), the outputs' and the photograph's.
+constexpr double PixelBytes = 100.0;
+constexpr double BlurredPixelBytes = 140.0;
 /// Threshold of observers and its spread, for the share of them who see the sign.
 constexpr double Threshold = 0.2;
 constexpr double ThresholdSpread = 0.04;
@@ -121,6 +128,14 @@ vtkVisibilityImage::~vtkVisibilityImage()
 }
 
 //------------------------------------------------------------------------------
+int vtkVisibilityImage::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkVisibilityImage::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
@@ -144,6 +159,7 @@ int vtkVisibilityImage::RequestInformation(
     info->Set(vtkDataObject::ORIGIN(), origin, 3);
     info->Set(vtkDataObject::SPACING(), spacing, 3);
   }
+  smokevis::HandlePieces(outputVector);
   return 1;
 }
 
@@ -194,9 +210,6 @@ void vtkVisibilityImage::CheckProperties() const
     "it is not positive", "Give it in mm");
   check(positive(this->FNumber), "FNumber", "it is not positive", "Give 2.8, for example");
   check(notNegative(this->Margin), "Margin", "it is negative", "Give a share from 0");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
   check(this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
   check(notNegative(this->FocusDistance), "FocusDistance", "it is negative",
     "Give metres from the sensor, or 0 for infinity");
@@ -205,24 +218,23 @@ void vtkVisibilityImage::CheckProperties() const
   check(positive(this->ISO), "ISO", "it is not positive", "Give 100, for example");
   check(notNegative(this->ReadNoise), "ReadNoise", "it is negative",
     "Give a share of the saturating exposure, or 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(
-    notNegative(this->AdaptationTime), "AdaptationTime", "it is negative", "Give seconds from 0");
-  check(this->ObserverAge >= 0.0 && this->ObserverAge <= 100.0, "ObserverAge",
-    "it is not from 0 to 100", "Give years");
 }
 
 //------------------------------------------------------------------------------
 void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
 {
   this->CheckProperties();
+  const smokevis::Adaptation state{
+    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  smokevis::Observer observer = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   const smokevis::ResponseCurve response = this->ResponseFile && *this->ResponseFile
                                              ? smokevis::ResponseCurve::Read(this->ResponseFile)
                                              : smokevis::ResponseCurve();
   double sensor[2];
   int size[2];
   this->UseModel(sensor, size);
+  smokevis::RequireMemory("ImageSize", "the image",
+    (this->LensBlur ? BlurredPixelBytes : PixelBytes) * size[0] * size[1], "Give a smaller image");
   const smokevis::ThinLens lens =
     this->FocusDistance > 0.0
       ? smokevis::ThinLens::Focused(Millimetre * this->FocalLength, this->FocusDistance)
@@ -259,9 +271,10 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     camera.FocusDistance = lens.ObjectDistance;
   }
 
-  const double acuity = vtkMath::RadiansFromDegrees(this->Acuity / 60.0);
-  smokevis::PipelineProgress progress(this, 0.1, 0.95);
-  const smokevis::TracedImage image = smokevis::TraceImage(view, camera, acuity, progress);
+  smokevis::TracedImage image;
+  smokevis::RunWithProgress(this, 0.1, 0.95,
+    [&](smokevis::Progress& progress)
+    { image = smokevis::TraceImage(view, camera, observer.Acuity, progress); });
 
   output->SetOrigin(0.0, 0.0, 0.0);
   output->SetSpacing(1.0, 1.0, 1.0);
@@ -293,12 +306,9 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
 
   const int measured = this->TargetSign >= 0 ? this->TargetSign : LargestSign(image.SignIds);
   smokevis::SignMeasurement result;
-  smokevis::Observer observer{this->DarkLuminance, acuity};
   if (measured >= 0)
   {
     sign = FindSign(view, measured);
-    const smokevis::Adaptation state{
-      this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
     std::optional<smokevis::GlareSources> glare;
     if (this->Glare)
     {
@@ -328,8 +338,9 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   number("UnlitLuminance", {result.UnlitLuminance});
   number("VisibleFraction", {result.VisibleFraction});
   number("OpticalDepthToSign", {result.OpticalDepth});
-  number("SensorIlluminance",
-    {0.25 * vtkMath::Pi() * result.MeanLuminance / (this->FNumber * this->FNumber)});
+  const smokevis::ExposureSettings exposure{this->FNumber, lens.Magnification(), this->ExposureTime,
+    this->ISO, this->ReadNoise, static_cast<std::uint64_t>(this->NoiseSeed)};
+  number("SensorIlluminance", {smokevis::SensorIlluminance(result.MeanLuminance, exposure)});
   number("VisibleProbability",
     {result.InView
         ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
@@ -344,11 +355,8 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   number("Magnification", {lens.Magnification()});
 
   const bool colour = this->Implementation->Input.Bands() == 3;
-  const smokevis::Photograph taken =
-    smokevis::TakePhotograph(colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1,
-      {this->FNumber, lens.Magnification(), this->ExposureTime, this->ISO, this->ReadNoise,
-        static_cast<std::uint64_t>(this->NoiseSeed)},
-      response);
+  const smokevis::Photograph taken = smokevis::TakePhotograph(
+    colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1, exposure, response);
   number("ShutterTime", {taken.Time});
   photograph->CopyStructure(output);
   photograph->GetFieldData()->DeepCopy(output->GetFieldData());
@@ -380,17 +388,24 @@ int vtkVisibilityImage::RequestData(
   own.FailedFilter = 0;
   try
   {
-    this->Trace(input, output, photograph);
+    smokevis::Ranks().Together(this, [&] { this->Trace(input, output, photograph); });
+    own.Kept.Keep(outputVector, 0);
+    own.Kept.Keep(outputVector, 1);
+    smokevis::LeaveToFirstPiece(outputVector);
     return 1;
   }
   catch (const std::exception& error)
   {
-    output->Initialize();
-    photograph->Initialize();
     if (this->GetAbortOutput())
     {
+      own.Kept.Restore(this, outputVector, 0);
+      own.Kept.Restore(this, outputVector, 1);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
+    own.Kept.Clear();
+    output->Initialize();
+    photograph->Initialize();
     own.FailedFilter = this->GetMTime();
     own.FailedInput = inputTime;
     vtkErrorMacro(<< error.what());

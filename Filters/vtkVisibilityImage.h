@@ -10,7 +10,11 @@
  * float, what the smoke adds; `OpticalDepth`, float, to the end of the ray (of the green band with
  * RGB);
  * - `SignMask`, unsigned char, 1 where the middle of a pixel sees the front of the target sign, or
- * of any sign where there is no target; `SignIds`, int, the id of the sign seen, -1: none.
+ * of any sign where there is no target; `SignIds`, int, the id of the sign seen, -1: none. A sign
+ * that is small in the picture is also marked in the pixel that holds its middle.
+ *
+ * Signs and lamps that are less than some 16 pixels wide, or than one, count in each pixel with the
+ * exact area that they fill of it, so that their light does not depend on where they fall.
  *
  * Second output: the photograph that a camera takes of it, the same points with the unsigned char
  * array `Photograph`, one component or three with RGB, ready for a PNG file.
@@ -21,13 +25,16 @@
  * DarkLuminance) with `ContrastError` and `PerceivedContrastError`, `WebberContrast`,
  * `UL924Contrast`, `MeanLuminance`, `MeanLuminanceError`, `LitLuminance`, `UnlitLuminance` [cd/m2],
  * `VisibleFraction`, `OpticalDepthToSign`, `MeasuredSign` (its id, -1: none), and
- * `SensorIlluminance` [lx], the sign's mean illuminance on the sensor, pi L / (4 FNumber^2);
- * `VisibleProbability`, the share of observers who see the sign, thresholds of 0.2 +- 0.04 being
- * normally distributed; `EyeLuminance` [cd/m2], DarkLuminance and what adaptation and glare add.
- * The camera: `CameraPosition`, `CameraForward`, `CameraUp`, and `CameraWindow`, the tangents of
- * the angles to the left, right, lower and upper edge. Of the lens: `ImageDistance` [mm],
- * `ObjectDistance` [m, infinite where it is focused far away] and `Magnification`; of the
- * photograph: `ShutterTime` [s].
+ * `SensorIlluminance` [lx], the sign's mean illuminance on the sensor as ISO 12232 has it,
+ * 0.65 L / (FNumber (1 + Magnification))^2, in which 0.65 is pi/4 times a lens's transmittance of
+ * 0.9, vignetting of 0.98 and cos^4 of 10 degrees; `VisibleProbability`, the share of observers who
+ * see the sign, thresholds of 0.2 +- 0.04 being normally distributed (a plate whose luminance
+ * varies for another reason than its pattern, such as a lamp at its side, has a contrast as well
+ * and counts as seen; WebberContrast and UL924Contrast compare its lit and unlit parts alone);
+ * `EyeLuminance` [cd/m2], DarkLuminance and what adaptation and glare add. The camera:
+ * `CameraPosition`, `CameraForward`, `CameraUp`, and `CameraWindow`, the tangents of the angles to
+ * the left, right, lower and upper edge. Of the lens: `ImageDistance` [mm], `ObjectDistance` [m,
+ * infinite where it is focused far away] and `Magnification`; of the photograph: `ShutterTime` [s].
  */
 #ifndef vtkVisibilityImage_h
 #define vtkVisibilityImage_h
@@ -266,6 +273,8 @@ protected:
   vtkVisibilityImage();
   ~vtkVisibilityImage() override;
 
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int,
+    vtkMTimeType* mtime) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;

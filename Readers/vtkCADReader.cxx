@@ -4,8 +4,11 @@
 #include "CadImages.h"
 #include "CadPolyData.h"
 #include "Errors.h"
+#include "FiniteProperty.h"
+#include "KeptOutput.h"
 #include "MaterialTable.h"
-#include "Progress.h"
+#include "PipelineProgress.h"
+#include "Ranks.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -32,25 +35,6 @@ enum Port
 // Most names that a message lists.
 constexpr std::size_t MostListed = 10;
 
-/// Reports reading as most of the work of an algorithm.
-class ReadingProgress : public smokevis::Progress
-{
-public:
-  explicit ReadingProgress(vtkAlgorithm* algorithm) : Algorithm(algorithm) {}
-
-  void Report(double fraction) override
-  {
-    this->Algorithm->UpdateProgress(0.9 * fraction);
-    if (this->Algorithm->CheckAbort())
-    {
-      this->Stop();
-    }
-  }
-
-private:
-  vtkAlgorithm* Algorithm;
-};
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -61,6 +45,7 @@ struct vtkCADReader::vtkInternals
   std::string ReadName;
   std::filesystem::file_time_type ReadStamp;
   smokevis::CadOptions ReadOptions;
+  smokevis::KeptOutput Kept;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -75,6 +60,38 @@ vtkCADReader::~vtkCADReader()
 {
   this->SetFileName(nullptr);
   this->SetMaterialTable(nullptr);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::SetDefaultReflectance(double value)
+{
+  smokevis::SetClamped(this, this->DefaultReflectance, value, 0.0, 1.0);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::SetTransparencyThreshold(double value)
+{
+  smokevis::SetClamped(this, this->TransparencyThreshold, value, 0.0, 1.0);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::CheckProperties() const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    smokevis::CheckFinite("Translation", this->Translation[axis], "Give metres");
+    smokevis::CheckFinite("Rotation", this->Rotation[axis], "Give degrees");
+  }
+  smokevis::CheckFinite("DefaultReflectance", this->DefaultReflectance, "Give 0 to 1");
+  smokevis::CheckFinite("TransparencyThreshold", this->TransparencyThreshold, "Give 0 to 1");
+}
+
+//------------------------------------------------------------------------------------------------
+int vtkCADReader::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Internals->Kept.PipelineMTime(this->GetMTime());
+  return 1;
 }
 
 //------------------------------------------------------------------------------------------------
@@ -99,10 +116,11 @@ void vtkCADReader::LoadModel()
   {
     return;
   }
-  own = vtkInternals();
-  ReadingProgress progress(this);
-  auto model =
-    std::make_unique<smokevis::CadModel>(smokevis::ReadCadFile(this->FileName, options, progress));
+  own.Model.reset();
+  auto model = std::make_unique<smokevis::CadModel>();
+  smokevis::RunWithProgress(this, 0.0, 0.9,
+    [&](smokevis::Progress& progress)
+    { *model = smokevis::ReadCadFile(this->FileName, options, progress); });
   smokevis::ApplyImages(*model);
   for (const std::string& warning : model->Warnings)
   {
@@ -115,6 +133,14 @@ void vtkCADReader::LoadModel()
 }
 
 //------------------------------------------------------------------------------------------------
+int vtkCADReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  smokevis::HandlePieces(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------------------------
 int vtkCADReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -122,53 +148,65 @@ int vtkCADReader::RequestData(
   vtkPolyData* const emitters = vtkPolyData::GetData(outputVector, EmittersPort);
   try
   {
-    this->LoadModel();
-    const smokevis::CadModel& model = *this->Internals->Model;
-    smokevis::MaterialTable table;
-    if (this->MaterialTable && *this->MaterialTable)
-    {
-      table = smokevis::MaterialTable(this->MaterialTable);
-      const std::vector<std::string> unmatched = table.Unmatched(model);
-      std::string list;
-      for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
+    smokevis::Ranks().Together(this,
+      [&]
       {
-        list += (list.empty() ? "" : "; ") + unmatched[i];
-      }
-      if (!unmatched.empty())
-      {
-        vtkWarningMacro(<< "material table '" << this->MaterialTable << "': " << unmatched.size()
-                        << " rows match no material and no object: " << list
-                        << ". The names are in the cell arrays Material and Object.");
-      }
-    }
-    vtkNew<vtkTransform> placement;
-    placement->Translate(this->Translation);
-    placement->RotateZ(this->Rotation[2]);
-    placement->RotateX(this->Rotation[0]);
-    placement->RotateY(this->Rotation[1]);
-    smokevis::CadPolyDataOptions options;
-    options.DefaultReflectance = this->DefaultReflectance;
-    options.TransparencyThreshold = this->TransparencyThreshold;
-    const smokevis::CadTriangleCounts counts = smokevis::BuildCadPolyData(
-      model, table, options, *placement->GetMatrix(), *surfaces, *emitters);
-    if (counts.Kept == 0)
-    {
-      throw smokevis::Error(this->FileName,
-        "nothing of it is left: " + std::to_string(counts.Transparent) +
-          " triangles are transparent and " + std::to_string(counts.Dropped) +
-          " are dropped by the material table",
-        "Lower TransparencyThreshold or change the table");
-    }
+        this->CheckProperties();
+        this->LoadModel();
+        const smokevis::CadModel& model = *this->Internals->Model;
+        smokevis::MaterialTable table;
+        if (this->MaterialTable && *this->MaterialTable)
+        {
+          table = smokevis::MaterialTable(this->MaterialTable);
+          const std::vector<std::string> unmatched = table.Unmatched(model);
+          std::string list;
+          for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
+          {
+            list += (list.empty() ? "" : "; ") + unmatched[i];
+          }
+          if (!unmatched.empty())
+          {
+            vtkWarningMacro(<< "material table '" << this->MaterialTable << "': "
+                            << unmatched.size() << " rows match no material and no object: " << list
+                            << ". The names are in the cell arrays Material and Object.");
+          }
+        }
+        vtkNew<vtkTransform> placement;
+        placement->Translate(this->Translation);
+        placement->RotateZ(this->Rotation[2]);
+        placement->RotateX(this->Rotation[0]);
+        placement->RotateY(this->Rotation[1]);
+        smokevis::CadPolyDataOptions options;
+        options.DefaultReflectance = this->DefaultReflectance;
+        options.TransparencyThreshold = this->TransparencyThreshold;
+        const smokevis::CadTriangleCounts counts = smokevis::BuildCadPolyData(
+          model, table, options, *placement->GetMatrix(), *surfaces, *emitters);
+        if (counts.Kept == 0)
+        {
+          throw smokevis::Error(this->FileName,
+            "nothing of it is left: " + std::to_string(counts.Transparent) +
+              " triangles are transparent and " + std::to_string(counts.Dropped) +
+              " are dropped by the material table",
+            "Lower TransparencyThreshold or change the table");
+        }
+      });
     this->UpdateProgress(1.0);
+    this->Internals->Kept.Keep(outputVector, SurfacesPort);
+    this->Internals->Kept.Keep(outputVector, EmittersPort);
+    smokevis::LeaveToFirstPiece(outputVector);
   }
   catch (const std::exception& error)
   {
-    surfaces->Initialize();
-    emitters->Initialize();
     if (this->GetAbortOutput())
     {
+      this->Internals->Kept.Restore(this, outputVector, SurfacesPort);
+      this->Internals->Kept.Restore(this, outputVector, EmittersPort);
+      smokevis::LeaveToFirstPiece(outputVector);
       return 1;
     }
+    this->Internals->Kept.Clear();
+    surfaces->Initialize();
+    emitters->Initialize();
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -155,7 +155,7 @@ public:
   /**
    * Reflectance of materials without a colour [1]. Range 0 to 1, default 0.5.
    */
-  vtkSetClampMacro(DefaultReflectance, double, 0.0, 1.0);
+  void SetDefaultReflectance(double value);
   vtkGetMacro(DefaultReflectance, double);
   ///@}
 
@@ -164,7 +164,7 @@ public:
    * Materials whose opacity is below this let light through: they are left out. 0 keeps all. The
    * material table can keep single ones by drop = no. Range 0 to 1, default 0.5.
    */
-  vtkSetClampMacro(TransparencyThreshold, double, 0.0, 1.0);
+  void SetTransparencyThreshold(double value);
   vtkGetMacro(TransparencyThreshold, double);
   ///@}
 
@@ -172,12 +172,19 @@ protected:
   vtkCADReader();
   ~vtkCADReader() override;
 
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int port, vtkMTimeType* mtime) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
   vtkCADReader(const vtkCADReader&) = delete;
   void operator=(const vtkCADReader&) = delete;
+
+  /// Throws where a property is not a finite number.
+  void CheckProperties() const;
 
   /// Reads the file where it or a property that counts for reading changed.
   void LoadModel();

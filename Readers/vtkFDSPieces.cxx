@@ -5,10 +5,10 @@
 
 #include "vtkCommunicator.h"
 #include "vtkDataObjectTypes.h"
+#include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -121,15 +121,16 @@ void FDSPieces::Complete(
     const int owner = this->Owner(meshOfBlock[block]);
     vtkSmartPointer<vtkDataSet> grid = blocks->GetPartition(block, 0);
     // A file that is missing leaves a block empty on its owner.
-    int has = grid ? 1 : 0;
-    controller->Broadcast(&has, 1, owner);
-    if (has == 0)
+    constexpr int nothing = -1;
+    int type = grid ? grid->GetDataObjectType() : nothing;
+    controller->Broadcast(&type, 1, owner);
+    if (type == nothing)
     {
       continue;
     }
     if (!grid)
     {
-      grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+      grid.TakeReference(vtkDataSet::SafeDownCast(vtkDataObjectTypes::NewDataObject(type)));
     }
     controller->Broadcast(grid, owner);
     blocks->SetPartition(block, 0, grid);

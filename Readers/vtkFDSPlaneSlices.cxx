@@ -1,5 +1,7 @@
 #include "vtkFDSPlaneSlices.h"
 
+#include "vtkFDSBlocks.h"
+
 #include "Errors.h"
 
 #include "vtkCellData.h"
@@ -8,7 +10,6 @@
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStringArray.h"
 
 #include <array>
 #include <sstream>
@@ -30,14 +31,6 @@ int NormalOf(const IndexRange& range)
     }
   }
   return -1;
-}
-
-void AddText(vtkFieldData* fields, const char* name, const std::string& text)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(text);
-  fields->AddArray(array);
 }
 
 } // namespace
@@ -92,12 +85,7 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
   {
     std::vector<float> later;
     plane.File->ReadFrame(mix.Frame[1], later);
-    const auto before = static_cast<float>(mix.Weight[0]);
-    const auto after = static_cast<float>(mix.Weight[1]);
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = before * values[i] + after * later[i];
-    }
+    Mix(mix, later, values);
   }
 
   const SmvMesh& mesh = index_.Meshes[slice.Mesh];
@@ -127,9 +115,10 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
     slice.CellCentred ? static_cast<vtkDataSetAttributes*>(grid->GetCellData())
                       : static_cast<vtkDataSetAttributes*>(grid->GetPointData());
   attributes->SetScalars(array);
-  AddText(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
-  AddText(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
-  AddText(grid->GetFieldData(), "File", slice.File);
+  AddField(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
+  AddField(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
+  AddField(grid->GetFieldData(), "File", slice.File);
+  AddField(grid->GetFieldData(), "Time", mix.Time);
   return grid;
 }
 

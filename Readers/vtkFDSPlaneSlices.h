@@ -36,7 +36,7 @@ public:
 
   /// The plane at a time as a grid one node or cell thick: point data named after the quantity of a
   /// node-centred slice, cell data of a cell-centred one, which lies half a cell below the node
-  /// that it is named by. Its field data name Quantity, Unit and File.
+  /// that it is named by. Its field data are Quantity, Unit, File and Time, that of the values [s].
   vtkSmartPointer<vtkRectilinearGrid> Read(
     Plane& plane, double time, TimeInterpolation interpolation) const;
 

@@ -92,6 +92,11 @@ void Fill(const SmokeRequest& request, int number, SmokeMesh& result)
     result.Light = request.Glow ? GlowOfSmoke(mesh, values, extinction, request.Albedo, luminance)
                                 : SpreadFlameLight(mesh, values, extinction, request.Albedo,
                                     request.Efficacy, luminance);
+    if (request.Heat)
+    {
+      request.Heat->Read(number, request.Time, request.Interpolation, solid, values);
+      result.Light.HeatRelease = TotalHeatRelease(mesh, values);
+    }
   }
 }
 
@@ -99,7 +104,7 @@ void Fill(const SmokeRequest& request, int number, SmokeMesh& result)
 
 //------------------------------------------------------------------------------------------------
 std::vector<SmokeMesh> ReadSmokeMeshes(
-  const SmokeRequest& request, int first, int end, const std::function<bool(double)>& progress)
+  const SmokeRequest& request, int first, int end, Progress& progress)
 {
   std::vector<SmokeMesh> meshes;
   for (int i = first; i < end; ++i)
@@ -108,12 +113,11 @@ std::vector<SmokeMesh> ReadSmokeMeshes(
   }
   std::vector<std::exception_ptr> problems(meshes.size());
   std::atomic<std::size_t> done = 0;
-  std::atomic<bool> stop = false;
   const std::thread::id caller = std::this_thread::get_id();
   tbb::parallel_for(std::size_t{0}, meshes.size(),
     [&](std::size_t i)
     {
-      if (stop)
+      if (progress.ShouldStop())
       {
         return;
       }
@@ -126,14 +130,12 @@ std::vector<SmokeMesh> ReadSmokeMeshes(
         problems[i] = std::current_exception();
       }
       ++done;
-      // Only the calling thread may talk to the pipeline.
-      if (std::this_thread::get_id() == caller &&
-          !progress(static_cast<double>(done) / static_cast<double>(meshes.size())))
+      if (std::this_thread::get_id() == caller)
       {
-        stop = true;
+        progress.Report(static_cast<double>(done) / static_cast<double>(meshes.size()));
       }
     });
-  if (stop)
+  if (progress.ShouldStop())
   {
     return {};
   }

@@ -4,11 +4,11 @@
 
 #include "FlameLight.h"
 #include "FrameTimes.h"
+#include "Progress.h"
 
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +28,8 @@ struct SmokeRequest
   /// heat release rate, and Efficacy is the light per heat release [lm/W].
   FlameSource* Flames = nullptr;
   bool Glow = false;
+  /// Where Flames gives a temperature: what tells the heat release rate, null for nothing.
+  FlameSource* Heat = nullptr;
   double Efficacy = 0.0;
   double Albedo = 0.0;
   /// [s]
@@ -44,11 +46,10 @@ struct SmokeMesh
   FlameLight Light;
 };
 
-/// Reads meshes [first, end). @p progress is called on this thread with the fraction done and says
-/// whether to go on; when it says no, what comes back is empty. Throws the error of the first mesh
-/// that has one.
+/// Reads meshes [first, end). When @p progress says so it stops, and what comes back is empty.
+/// Throws the error of the first mesh that has one.
 std::vector<SmokeMesh> ReadSmokeMeshes(
-  const SmokeRequest& request, int first, int end, const std::function<bool(double)>& progress);
+  const SmokeRequest& request, int first, int end, Progress& progress);
 
 } // namespace smokevis
 

@@ -18,14 +18,21 @@
  * Its field data, on the collection and on each grid, are `ExtinctionSource` (string: the
  * quantities and files used), `Albedo` (double, 0 to 1: single-scattering albedo), `Time` (double:
  * time of the data [s]) and `CHID` (string); with flames also `FlameSource` (string: model and
- * files), `FlameHeatRelease` [W], `FlameLumens` and `FlameLumensPlaced` [lm], each over all meshes:
- * the light that the model asks for, and what of it the smoke of burning cells sends out.
+ * files), `FlameHeatRelease` [W] where the run wrote HRRPUV in 3-D, `FlameLumens` and
+ * `FlameLumensPlaced` [lm], each over all meshes: the light that the model asks for, and what of it
+ * the smoke of burning cells sends out.
  *
  * K comes, on each mesh and for each smoke species, from the best of what the run wrote in 3-D:
- * slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, MASS FRACTION with the
- * gas DENSITY, each cell-centred before node-centred; 8-bit smoke (.s3d, .s3dd) that holds density;
- * Plot3D; slices of VISIBILITY; 8-bit smoke that holds opacity. Parts of a mesh are completed by
- * the next best. Smoke species add. Of nodes, a cell gets the mean of its eight.
+ *  -# cell-centred slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, MASS
+ *     FRACTION with the gas DENSITY, the latter two where the mass extinction coefficient is known;
+ *  -# the same of nodes, which blur K over neighbouring cells, or with FDS's default coefficient;
+ *  -# 8-bit smoke (.s3d, .s3dd) that holds density;
+ *  -# Plot3D;
+ *  -# slices of VISIBILITY, which is capped;
+ *  -# 8-bit smoke that holds opacity.
+ *
+ * Parts of a mesh are completed by the next best. Smoke species add. Of nodes, a cell gets the mean
+ * of its eight.
  *
  * Output 1, Geometry, is a vtkPolyData with fronts towards the gas: rectangles of obstructions and
  * of the outer boundaries of the meshes that are not open, and triangles of complex geometry
@@ -41,6 +48,11 @@
  * 2-D slice of each mesh whose file is there, with an array named after the quantity: on the points
  * of a node-centred slice, on the cells of a cell-centred one, at the cells' centres.
  *
+ * Output 4, Boundary, is a vtkPartitionedDataSetCollection with a vtkPolyData for each boundary
+ * file
+ * (.bf) that is there: the walls of one mesh as they are at that time, with an array named after
+ * the quantity, on the points or, where FDS wrote cells, on the cells.
+ *
  * The time steps are the frame times of all meshes. A requested time gives the nearest frame, the
  * earlier of two equally near, or is interpolated; obstructions are shown as they are at that time.
  *
@@ -55,6 +67,8 @@
 #include "vtkPartitionedDataSetCollectionAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
+#include <vector> // for std::vector
 
 class SMOKEREADERS_EXPORT vtkFDSSmokeReader : public vtkPartitionedDataSetCollectionAlgorithm
 {
@@ -82,14 +96,14 @@ public:
    * ones that are invisible in Smokeview) is below this let light through: they are left out of the
    * geometry. 0 keeps all. Range 0 to 1, default 0.5. Their cells hold no smoke in any case.
    */
-  vtkSetClampMacro(TransparencyThreshold, double, 0.0, 1.0);
+  void SetTransparencyThreshold(double value);
   vtkGetMacro(TransparencyThreshold, double);
   ///@}
 
   ///@{
   /**
    * Where the extinction coefficient is to come from; the run must have written it. Default
-   * AUTOMATIC_SOURCE, the best there is, in this order.
+   * AUTOMATIC_SOURCE, the best there is in the order above.
    */
   enum ExtinctionSources
   {
@@ -112,7 +126,7 @@ public:
    * Mass extinction coefficient Km of the smoke at 633 nm [m2/kg] to take instead of the run's own;
    * whatever K comes from is scaled to it. 0: the run's own. Range 0 to 100000, default 0.
    */
-  vtkSetClampMacro(MassExtinctionCoefficient, double, 0.0, 1e5);
+  void SetMassExtinctionCoefficient(double value);
   vtkGetMacro(MassExtinctionCoefficient, double);
   ///@}
 
@@ -121,7 +135,7 @@ public:
    * Visibility factor C [1] with which the run computed VISIBILITY, S = C/K (its
    * VISIBILITY_FACTOR). Used only where VISIBILITY is all there is. Range 0.01 to 100, default 3.
    */
-  vtkSetClampMacro(VisibilityFactor, double, 0.01, 100.0);
+  void SetVisibilityFactor(double value);
   vtkGetMacro(VisibilityFactor, double);
   ///@}
 
@@ -131,7 +145,7 @@ public:
    * field takes it, and says how much of the extinction emits light in flames. Below 0: the run's
    * own, else 0.3. Range -1 to 1, default -1.
    */
-  vtkSetClampMacro(Albedo, double, -1.0, 1.0);
+  void SetAlbedo(double value);
   vtkGetMacro(Albedo, double);
   ///@}
 
@@ -178,7 +192,7 @@ public:
    * wood and furniture up to 1500 K, 0.13 lm/W; a candle has 0.16 lm/W. Range 0 to 100, default
    * 0.05.
    */
-  vtkSetClampMacro(LuminousEfficacy, double, 0.0, 100.0);
+  void SetLuminousEfficacy(double value);
   vtkGetMacro(LuminousEfficacy, double);
   ///@}
 
@@ -191,12 +205,23 @@ public:
   vtkBooleanMacro(ReadPlaneSlices, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output Boundary is read. Default on.
+   */
+  vtkSetMacro(ReadBoundary, bool);
+  vtkGetMacro(ReadBoundary, bool);
+  vtkBooleanMacro(ReadBoundary, bool);
+  ///@}
+
 protected:
   vtkFDSSmokeReader();
   ~vtkFDSSmokeReader() override;
 
   int ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int port, vtkMTimeType* mtime) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -207,13 +232,18 @@ private:
   vtkFDSSmokeReader(const vtkFDSSmokeReader&) = delete;
   void operator=(const vtkFDSSmokeReader&) = delete;
 
-  void LoadIndex();
+  /// Opens the run; false where that fails, which is then said, but once only.
+  bool LoadRun();
+  void Warn(const std::vector<std::string>& warnings);
   double SceneTime(vtkInformation* outInfo) const;
   void ReadPort(int port, vtkInformation* outInfo);
   void ReadSmoke(vtkInformation* outInfo);
   void ReadGeometry(vtkInformation* outInfo);
   void ReadDevices(vtkInformation* outInfo);
-  void ReadSlices(vtkInformation* outInfo);
+  /// Reads an output with a block a file, of which missing ones make empty blocks.
+  template <class Source, class Parts, class EntryOf>
+  void ReadBlocks(
+    vtkInformation* outInfo, const char* what, Source& source, Parts& parts, EntryOf&& entryOf);
 
   char* FileName = nullptr;
   double TransparencyThreshold = 0.5;
@@ -225,6 +255,7 @@ private:
   int FlameModel = FLAMES_BY_HEAT_RELEASE;
   double LuminousEfficacy = 0.05;
   bool ReadPlaneSlices = true;
+  bool ReadBoundary = true;
 
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -48,12 +48,9 @@ def judge(numbers):
     return Verdict(
         text, AGREES if all(good) else IN_PART if any(good) else DISAGREES,
         "areas between the curves of contrast over density, red square, two lamps of 20, 200 and "
-        "2000 lm "
-        f"(2000 lm is a bright room); 'much' is taken as {MUCH:g} times. In glycol the statement "
-        "holds for "
-        "any lamp; in soot, which scatters little and tells colours apart, only for lamps that "
-        "are bright "
-        "against the sign")
+        f"2000 lm (2000 lm is a bright room); 'much' is taken as {MUCH:g} times. In glycol the "
+        "statement holds for any lamp; in soot, which scatters little and tells colours apart, "
+        "only for lamps that are bright against the sign")
 
 
 def draw(numbers, path):

@@ -50,8 +50,7 @@ def judge(numbers):
         texts.append(f"{smoke}, {case}: lead {low:+.3f} to {high:+.3f}; "
                      f"quadratic to {found.end:.1f}/m "
                      f"(residual {100 * found.residual:.1f} %, a line's {gain:.1f} times that, "
-                     "bent "
-                     f"{'down' if found.coefficients[0] < 0.0 else 'up'})")
+                     f"bent {'down' if found.coefficients[0] < 0.0 else 'up'})")
         better.append(low > -0.005 and high > 0.005)
         bent.append(gain > 2.0)
     shares = numbers["shares"]
@@ -61,12 +60,10 @@ def judge(numbers):
     return Verdict(
         "; ".join(texts), agrees,
         "which sign is ahead depends on the share of lit area in the part of the picture that is "
-        "measured: in "
-        f"clear air the barcode has {shares['glycol', 'barcode'][0]:.2f} and the square {clear}, "
-        "its side over "
-        "the plate's. With equal shares the two differ by the blur of the smoke's glow alone, "
-        "which costs "
-        "narrow bars more than a large square. The curves do bend, the square's as well")
+        f"measured: in clear air the barcode has {shares['glycol', 'barcode'][0]:.2f} and the "
+        f"square {clear}, its side over the plate's. With equal shares the two differ by the blur "
+        "of the smoke's glow alone, which costs narrow bars more than a large square. The curves "
+        "do bend, the square's as well")
 
 
 def draw(numbers, path):

@@ -49,8 +49,8 @@ def fit(x, y, degree):
 
 
 def fit_range(x, y, degree, allowed=0.05):
-    """The longest polynomial from the first point on that leaves at most a share of the first "
-    "value."""
+    """The longest polynomial from the first point on that leaves at most a share of the first
+    value."""
     x, y = numpy.asarray(x), numpy.asarray(y)
     end = len(x)
     while True:

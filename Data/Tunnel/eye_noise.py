@@ -37,8 +37,8 @@ def adrian(background, minutes):
 
 
 def cie(background):
-    """The same for a disc of 4 minutes shown for 0.2 s: CIE 19/2 (1981), visibility reference "
-    "function."""
+    """The same for a disc of 4 minutes shown for 0.2 s: CIE 19/2 (1981), visibility reference
+    function."""
     return 0.05936 * ((1.639 / background) ** 0.4 + 1.0) ** 2.5 * background
 
 
@@ -49,8 +49,8 @@ def ours(background, noise=DEFAULT):
 
 
 def noise_of_reading(luminance, lit=5.0 / 9.0):
-    """Noise [cd/m2] of an observer who loses a sign, a share of it lit, on a black ground at a "
-    "luminance."""
+    """Noise [cd/m2] of an observer who loses a sign, a share of it lit, on a black ground at a
+    luminance."""
     return luminance * (numpy.sqrt(lit * (1.0 - lit)) / THRESHOLD - lit)
 
 
@@ -90,15 +90,12 @@ def judge(numbers):
     inside = all(a <= DEFAULT <= b for _, a, b in numbers["implied"])
     return Verdict(
         f"DarkLuminance [cd/m2] that readings ask for: {implied}; that makes 0.2 run parallel to "
-        "Adrian's "
-        f"thresholds from 0.001 to 1 cd/m2: {best}", AGREES if inside else DISAGREES,
+        f"Adrian's thresholds from 0.001 to 1 cd/m2: {best}", AGREES if inside else DISAGREES,
         "0.1 lies within what readings of signs in smoke ask for. With it the contrast 0.2 is "
-        f"{low:.0f} to "
-        f"{high:.0f} times what Adrian finds just detectable for details of {DETAIL:g}': to read "
-        "takes more than "
-        f"to detect. The CIE reference task (4', 0.2 s) needs {cie(1e-9):.3f} cd/m2 in the dark, "
-        "twice the "
-        f"{ours(0.0):.3f} cd/m2 here, where eyes have time and bars are larger")
+        f"{low:.0f} to {high:.0f} times what Adrian finds just detectable for details of "
+        f"{DETAIL:g}': to read takes more than to detect. The CIE reference task (4', 0.2 s) needs "
+        f"{cie(1e-9):.3f} cd/m2 in the dark, twice the {ours(0.0):.3f} cd/m2 here, where eyes have "
+        "time and bars are larger")
 
 
 def draw(numbers, path):

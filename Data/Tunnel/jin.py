@@ -20,8 +20,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCellCenters
 
 CLAIM = ("Jin: K V at threshold is 5 to 10 for signs that emit light and 2 to 4 for signs that "
-         "reflect it (not "
-         "the paper's claim)")
+         "reflect it (not the paper's claim)")
 SIZE = (24.0, 2.5, 2.5)  # m
 CELLS = (96, 10, 10)
 WALLS = 0.5
@@ -122,9 +121,8 @@ def pictures(albedo, source, distances, tolerance, cells, folder):
 
 
 def lost(distances, own, veil, threshold=scene.THRESHOLD):
-    """K V at which the contrast of a sign's own light, its deviation over the mean of all light "
-    "and the
-    noise, falls to a threshold. The slope of the veil over the plate does not count as sign."""
+    """K V at which the contrast of a sign's own light, its deviation over the mean of all light and
+    the noise, falls to a threshold. The slope of the veil over the plate does not count as sign."""
     # Right at the plate there is no smoke before it.
     own = numpy.vstack([own[0] * numpy.exp(SMOKE * distances[0]), own])
     veil = numpy.vstack([0.0 * veil[0], veil])
@@ -177,21 +175,16 @@ def judge(numbers):
         cards = select(reflecting, threshold, lambda albedo, ambient: ambient >= 10.0)
         texts.append(
             f"at contrast {threshold:g}: emitting, dark {span(dark)} ({share(dark, EMITTING):.0f} "
-            "% within 5 to 10), "
-            f"200 lx {span(lit)} ({share(lit, EMITTING):.0f} %); reflecting, 10 to 200 lx "
-            f"{span(cards)} "
-            f"({share(cards, REFLECTING):.0f} % within 2 to 4)")
+            f"% within 5 to 10), 200 lx {span(lit)} ({share(lit, EMITTING):.0f} %); reflecting, 10 "
+            f"to 200 lx {span(cards)} ({share(cards, REFLECTING):.0f} % within 2 to 4)")
     return Verdict(
         "; ".join(texts), IN_PART,
         "in the dark an emitting sign is lost to the eye's noise; K V grows with the logarithm of "
-        "the luminance, as "
-        "in Jin's formula, and lies in his range at 0.2. Under lamps the veil takes the sign, the "
-        "more the whiter the "
-        "smoke, and 5 to 10 misleads for all but bright signs. A reflecting sign is never much "
-        "brighter than the glow "
-        "of the smoke that its light comes through: at 0.2 it is lost below 2. Jin's 2 to 4 are "
-        "for a threshold of 0.01 "
-        "to 0.02 in bright surroundings, which is what eyes can do there; 0.2 is on the safe side "
+        "the luminance, as in Jin's formula, and lies in his range at 0.2. Under lamps the veil "
+        "takes the sign, the more the whiter the smoke, and 5 to 10 misleads for all but bright "
+        "signs. A reflecting sign is never much brighter than the glow of the smoke that its light "
+        "comes through: at 0.2 it is lost below 2. Jin's 2 to 4 are for a threshold of 0.01 to "
+        "0.02 in bright surroundings, which is what eyes can do there; 0.2 is on the safe side "
         "then")
 
 

@@ -54,8 +54,7 @@ def judge(numbers):
     return Verdict(
         "; ".join(texts), AGREES if all(good) else IN_PART if any(good) else DISAGREES,
         "the camera looks through the glow of the near lamp, and that of the far one is weakened "
-        "on its "
-        "way. Lamps 0.25 to 1 m from the ends and walls of 0.05 to 0.5 give veils "
+        "on its way. Lamps 0.25 to 1 m from the ends and walls of 0.05 to 0.5 give veils "
         f"{min(spread):.1f} to {max(spread):.1f} times as bright at {VARIED_AT:g}/m")
 
 

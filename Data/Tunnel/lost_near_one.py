@@ -46,19 +46,16 @@ def judge(numbers):
     spread = [value for key, value in numbers["varied"].items() if len(key) == 3 and value]
     plain = {key[0]: value[0] for key, value in numbers["varied"].items() if len(key) == 2}
     last = numbers["densities"][-1]
-    # Luminance and noise, which decide it, are not the paper's, and its photograph has another course:
-    # more than agreement in part cannot be said.
+    # Luminance and noise, which decide it, are not the paper's, and its photograph has another
+    # course: more than agreement in part cannot be said.
     return Verdict(
         "; ".join(texts), IN_PART if any(good) else DISAGREES,
         f"at {scene.SIGN_LUMINANCE:g} cd/m2 and a noise of {scene.DARK:g} cd/m2, both open in the "
-        "paper; "
-        f"for {LUMINANCES[0]:g} to {LUMINANCES[-1]:g} cd/m2 and {NOISES[0]:g} to {NOISES[-1]:g} "
-        "cd/m2 it is "
-        f"{min(spread):.2f} to {max(spread):.2f}. Green in soot is lost earlier, its extinction "
-        "is 1.19 times "
-        "that at 633 nm. The sign is lost for its faintness: without noise of "
-        f"eye or camera the contrast at {last:g}/m is still {plain['glycol']:.2f} (glycol) and "
-        f"{plain['soot']:.2f} (soot)")
+        f"paper; for {LUMINANCES[0]:g} to {LUMINANCES[-1]:g} cd/m2 and {NOISES[0]:g} to "
+        f"{NOISES[-1]:g} cd/m2 it is {min(spread):.2f} to {max(spread):.2f}. Green in soot is lost "
+        "earlier, its extinction is 1.19 times that at 633 nm. The sign is lost for its faintness: "
+        f"without noise of eye or camera the contrast at {last:g}/m is still "
+        f"{plain['glycol']:.2f} (glycol) and {plain['soot']:.2f} (soot)")
 
 
 def draw(numbers, path):

@@ -7,8 +7,6 @@ import tunnel as scene
 from claims import AGREES, DISAGREES, IN_PART, Verdict
 
 CLAIM = "Red is ahead of green in thin smoke, and the difference shrinks as it thickens"
-
-
 CASES = {"dark": (), "both lamps": ("sign", "camera")}
 
 
@@ -67,13 +65,10 @@ def judge(numbers):
     return Verdict(
         "; ".join(texts), IN_PART if all(good) else DISAGREES,
         "errors in brackets; in soot, whose extinction falls as 1/wavelength, red is ahead "
-        "everywhere and the difference "
-        "vanishes where both are lost, but it first grows: in clear air the two are equal, and it "
-        "is "
-        "largest near the threshold. In a fog of droplets the physics gives no "
-        "difference; one "
-        "in clear air must come from the signs (unequal luminance) or from the camera's response "
-        "to colour")
+        "everywhere and the difference vanishes where both are lost, but it first grows: in clear "
+        "air the two are equal, and it is largest near the threshold. In a fog of droplets the "
+        "physics gives no difference; one in clear air must come from the signs (unequal "
+        "luminance) or from the camera's response to colour")
 
 
 def draw(numbers, path):

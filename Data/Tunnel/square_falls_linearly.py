@@ -57,15 +57,12 @@ def judge(numbers):
         AGREES if all(whole.values()) else IN_PART if any(whole.values()) else DISAGREES,
         "the photograph, 8-bit values of a film-like response metered each time, comes nearest to "
         "what the paper measured; with lamps or in glycol it falls along a line for most of its "
-        "way. "
-        "The luminance does not: smoke dims lit and unlit parts alike and only its glow lowers "
-        "their "
-        f"ratio, slowly at first in glycol (by {slopes['glycol']:.2f} a 1/m) and hardly at all in "
-        "soot "
-        f"({slopes['soot']:.2f} a 1/m). What an eye perceives is no line either: it stays high "
-        "until "
-        "the sign is as faint as the eye's noise and then falls steeply. The line is a property of "
-        "the camera's response")
+        "way. The luminance does not: smoke dims lit and unlit parts alike and only its glow "
+        "lowers their ratio, slowly at first in glycol "
+        f"(by {slopes['glycol']:.2f} a 1/m) and hardly at all in soot ({slopes['soot']:.2f} a "
+        "1/m). What an eye perceives is no line either: it stays high until the sign is as faint "
+        "as the eye's noise and then falls steeply. The line is a property of the camera's "
+        "response")
 
 
 def draw(numbers, path, title="Red square sign"):

@@ -16,6 +16,7 @@ import ambient_over_colour  # noqa: E402
 import barcode_bends  # noqa: E402
 import burning_hall  # noqa: E402
 import eye_noise  # noqa: E402
+import forward_scattering  # noqa: E402
 import jin  # noqa: E402
 import lamp_near_camera  # noqa: E402
 import lost_near_one  # noqa: E402
@@ -24,7 +25,7 @@ import red_before_green  # noqa: E402
 import square_falls_linearly  # noqa: E402
 
 CLAIMS = (square_falls_linearly, barcode_bends, red_before_green, ambient_over_colour,
-          lamp_near_camera, lost_near_one, burning_hall, eye_noise, jin)
+          lamp_near_camera, lost_near_one, forward_scattering, burning_hall, eye_noise, jin)
 
 rows = []
 for module in CLAIMS:

@@ -30,6 +30,9 @@ struct EmitterCell
   /// Of a sign: 1 for the parts that are to be bright, 0 for the others, -1 where that is to be
   /// told from their brightness.
   int Part = -1;
+
+  /// Tables are the same where they are the same object.
+  bool operator==(const EmitterCell&) const = default;
 };
 
 /// A sign: emitter cells with one id.

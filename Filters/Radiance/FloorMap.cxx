@@ -142,10 +142,12 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   }
   Skipped skipped;
   tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
-  const std::size_t chunk = std::max<std::size_t>(8, places / 50);
-  for (std::size_t begin = 0; begin < places; begin += chunk)
+  const std::size_t last = std::min(places, options.End);
+  const std::size_t own = last - std::min(last, options.First);
+  const std::size_t chunk = std::max<std::size_t>(8, own / 50);
+  for (std::size_t begin = options.First; begin < last; begin += chunk)
   {
-    const std::size_t end = std::min(places, begin + chunk);
+    const std::size_t end = std::min(last, begin + chunk);
     arena.execute(
       [&]
       {
@@ -158,7 +160,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
             }
           });
       });
-    progress.Report(static_cast<double>(end) / static_cast<double>(places));
+    progress.Report(static_cast<double>(end - options.First) / static_cast<double>(own));
     if (progress.ShouldStop())
     {
       throw Error("floor map", "the work was stopped");
@@ -167,7 +169,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   const auto say = [&map](const char* what, std::size_t count, const char* why) {
     map.Report.push_back({what, static_cast<double>(count), why});
   };
-  const std::size_t views = places * map.Signs;
+  const std::size_t views = own * map.Signs;
   const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
   say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");
   say("places skipped", skipped.Solid, "inside a solid");

@@ -4,6 +4,8 @@
 #include "Eye.h"
 #include "Progress.h"
 
+#include <limits>
+
 namespace smokevis
 {
 
@@ -23,6 +25,10 @@ struct FloorMapOptions
   Adaptation State;
   /// Most worker threads; 0: as many as the machine has.
   int Threads = 0;
+  /// Only places from the first up to, not including, the end are computed, where several processes
+  /// share the work; the others keep their initial values.
+  std::size_t First = 0;
+  std::size_t End = std::numeric_limits<std::size_t>::max();
 };
 
 enum class PlaceStatus : signed char

@@ -20,6 +20,8 @@ struct SurfaceMesh
   std::vector<std::uint32_t> TriangleCell;
   /// Diffuse reflectance of each cell, both sides, 0 to 1 a band.
   std::vector<Spectrum> CellReflectance;
+
+  bool operator==(const SurfaceMesh&) const = default;
 };
 
 /// Where a ray meets a shape.

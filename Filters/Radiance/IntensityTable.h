@@ -40,6 +40,8 @@ public:
   static double Flux(const std::vector<double>& polar, const std::vector<double>& azimuth,
     const std::vector<double>& intensity);
 
+  bool operator==(const IntensityTable&) const = default;
+
 private:
   void Check(const std::string& where) const;
 

@@ -21,6 +21,8 @@ struct SmokeGrid
   std::vector<float> Extinction;
   /// Luminance that the cell's absorption would emit in equilibrium [cd/m2]; empty: none.
   std::vector<float> EmittedLuminance;
+
+  bool operator==(const SmokeGrid&) const = default;
 };
 
 /// A piece of a ray inside one cell.

@@ -11,7 +11,7 @@ namespace smokevis
 namespace
 {
 
-/// q of ISO 2720 and ISO 12232.
+/// q of ISO 12232.
 constexpr double LensFactor = 0.65;
 /// K of ISO 2720 [cd s/m2].
 constexpr double MeterConstant = 12.5;
@@ -31,10 +31,16 @@ double Normal(std::uint64_t seed, std::uint64_t index)
 } // namespace
 
 //------------------------------------------------------------------------------
-double FocalPlaneExposure(double luminance, const ExposureSettings& settings, double time)
+double SensorIlluminance(double luminance, const ExposureSettings& settings)
 {
   const double stop = settings.FNumber * (1.0 + settings.Magnification);
-  return LensFactor * luminance * time / (stop * stop);
+  return LensFactor * luminance / (stop * stop);
+}
+
+//------------------------------------------------------------------------------
+double FocalPlaneExposure(double luminance, const ExposureSettings& settings, double time)
+{
+  return SensorIlluminance(luminance, settings) * time;
 }
 
 //------------------------------------------------------------------------------

@@ -26,9 +26,13 @@ struct ExposureSettings
   std::uint64_t Seed = 1;
 };
 
-/// Exposure of the sensor [lx s] for a luminance [cd/m2]: H = q L t / N^2 with the effective
-/// f-number N. q = 0.65 is the value of ISO 2720 and ISO 12232, pi/4 times a transmittance of 0.9,
-/// a vignetting factor of 0.98 and cos^4 of 10 degrees.
+/// Illuminance of the sensor [lx] behind a lens for a luminance [cd/m2], ISO 12232: E = q L / N^2,
+/// q = pi/4 T v cos^4(a) = 0.65 with a transmittance T of 0.9, a vignetting factor v of 0.98 and an
+/// angle a of 10 degrees off the axis; the N of a lens that is focused nearby is the f-number times
+/// the distance to the image over the focal length, 1 + magnification.
+double SensorIlluminance(double luminance, const ExposureSettings& settings);
+
+/// Exposure of the sensor [lx s] for a luminance [cd/m2]: its illuminance times the time [s].
 double FocalPlaneExposure(double luminance, const ExposureSettings& settings, double time);
 
 /// Exposure time [s] that a meter for reflected light asks for, t = K N^2 / (L S) with K = 12.5

@@ -2,12 +2,12 @@
 
 #include "Errors.h"
 #include "IntensityTable.h"
+#include "TextFile.h"
+#include "TextLines.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 
 #include <glm/gtc/constants.hpp>
@@ -32,17 +32,9 @@ bool Same(double a, double b)
 class Scanner
 {
 public:
-  Scanner(const std::string& text, std::string where) : Where_(std::move(where))
+  Scanner(const std::string& text, std::string where)
+      : Where_(std::move(where)), Lines_(SplitLines(text))
   {
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);)
-    {
-      if (!line.empty() && line.back() == '\r')
-      {
-        line.pop_back();
-      }
-      this->Lines_.push_back(std::move(line));
-    }
   }
 
   bool AtEnd() const { return this->Line_ >= this->Lines_.size(); }
@@ -180,6 +172,21 @@ void CheckVertical(const Scanner& scanner, std::vector<double>& angles)
   angles.back() = std::round(angles.back());
 }
 
+/// Whether evenly spaced angles go all around and only leave out 360, which is 0 again, as some
+/// makers do.
+bool GoesRound(const std::vector<double>& angles)
+{
+  const double step = 360.0 / static_cast<double>(angles.size());
+  for (std::size_t i = 0; i < angles.size(); ++i)
+  {
+    if (!Same(angles[i], static_cast<double>(i) * step))
+    {
+      return false;
+    }
+  }
+  return angles.size() > 2;
+}
+
 /// Fills in the planes that symmetry leaves out. `source` receives the plane of the file that each
 /// is equal to.
 std::vector<double> AllPlanes(
@@ -220,7 +227,7 @@ std::vector<double> AllPlanes(
         add(360.0, i);
       }
     }
-    else if (!Same(first, 0.0) || last < 180.0 || last > 360.0 + SameAngle)
+    else if (!Same(first, 0.0) || !(Same(last, 360.0) || GoesRound(angles)))
     {
       scanner.Fail(
         "the horizontal angles go from " + std::to_string(first) + " to " + std::to_string(last),
@@ -254,13 +261,8 @@ std::vector<double> AllPlanes(
 PhotometricFile PhotometricFile::Read(const std::string& fileName)
 {
   const std::string where = "photometric file '" + fileName + "'";
-  std::ifstream file(fileName, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-  {
-    throw Error(where, "it cannot be read", "Give an IES file of the luminaire's maker");
-  }
-  return PhotometricFile::Parse(text.str(), where);
+  return PhotometricFile::Parse(
+    ReadTextFile(where, fileName, "Give an IES file of the luminaire's maker"), where);
 }
 
 PhotometricFile PhotometricFile::Parse(const std::string& text, const std::string& where)

@@ -1,5 +1,7 @@
 #include "PlatePattern.h"
 
+#include "PolygonClip.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,58 +12,6 @@ namespace
 {
 
 constexpr std::size_t MostPlaces = 4;
-
-using Polygon = std::vector<glm::dvec2>;
-
-/// The part of a convex polygon between two lines across an axis.
-void Clip(const Polygon& polygon, int axis, double low, double high, Polygon& result)
-{
-  thread_local Polygon half;
-  const auto cut = [axis](const Polygon& from, double line, double side, Polygon& to)
-  {
-    to.clear();
-    for (std::size_t i = 0; i < from.size(); ++i)
-    {
-      const glm::dvec2& here = from[i];
-      const glm::dvec2& next = from[i + 1 < from.size() ? i + 1 : 0];
-      const double a = side * (here[axis] - line);
-      const double b = side * (next[axis] - line);
-      if (a >= 0.0)
-      {
-        to.push_back(here);
-      }
-      if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0))
-      {
-        to.push_back(here + a / (a - b) * (next - here));
-      }
-    }
-  };
-  cut(polygon, low, 1.0, half);
-  cut(half, high, -1.0, result);
-}
-
-/// Twice the area.
-double AreaOf(const Polygon& polygon)
-{
-  double sum = 0.0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    const glm::dvec2 a = polygon[i - 1] - polygon[0];
-    const glm::dvec2 b = polygon[i] - polygon[0];
-    sum += a.x * b.y - a.y * b.x;
-  }
-  return std::abs(sum);
-}
-
-glm::dvec2 MiddleOf(const Polygon& polygon)
-{
-  glm::dvec2 sum(0.0);
-  for (const glm::dvec2& corner : polygon)
-  {
-    sum += corner;
-  }
-  return sum / static_cast<double>(polygon.size());
-}
 
 /// Pieces of an axis that an interval touches.
 std::pair<std::size_t, std::size_t> Range(const std::vector<double>& ends, double low, double high)
@@ -134,7 +84,7 @@ PlatePattern::PlatePattern(
   const std::size_t columns = across.Block.size();
   const std::size_t rows = up.Block.size();
   std::vector<PatternVector> sums(places ? 0 : columns * rows);
-  Polygon strip, piece;
+  FlatPolygon strip, piece;
   // The part of one cell in each block: its area, and its centre times that.
   std::vector<double> areas(this->Blocks_.size(), 0.0);
   std::vector<glm::dvec2> centres(this->Blocks_.size());
@@ -153,7 +103,7 @@ PlatePattern::PlatePattern(
     const auto [firstRow, lastRow] = Range(up.Ends, low.y, high.y);
     for (std::size_t row = firstRow; row < lastRow; ++row)
     {
-      Clip(cell.Corners, 1, up.Ends[row], up.Ends[row + 1], strip);
+      KeepStrip(cell.Corners, 1, up.Ends[row], up.Ends[row + 1], strip);
       if (strip.size() < 3)
       {
         continue;
@@ -168,8 +118,8 @@ PlatePattern::PlatePattern(
       const auto [firstColumn, lastColumn] = Range(across.Ends, left, right);
       for (std::size_t column = firstColumn; column < lastColumn; ++column)
       {
-        Clip(strip, 0, across.Ends[column], across.Ends[column + 1], piece);
-        const double area = piece.size() < 3 ? 0.0 : 0.5 * AreaOf(piece);
+        KeepStrip(strip, 0, across.Ends[column], across.Ends[column + 1], piece);
+        const double area = AreaOf(piece);
         if (!(area > 0.0))
         {
           continue;

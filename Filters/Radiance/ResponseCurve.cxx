@@ -1,11 +1,12 @@
 #include "ResponseCurve.h"
 
 #include "Errors.h"
+#include "Srgb.h"
+#include "TextLines.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 namespace smokevis
 {
@@ -14,32 +15,12 @@ namespace
 
 constexpr double LargestValue = 255.0;
 
-/// sRGB's encoding of a share of light, 0 to 1 (IEC 61966-2-1).
-double Encode(double light)
-{
-  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-}
-
-/// The inverse of Encode.
-double Decode(double value)
-{
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
 /// Exposure at ISO 100 of which 1/e of the film is left unexposed [lx s].
 double FilmExposure()
 {
   // ISO 12232: value 118 at 10 lx s over the speed.
-  static const double exposure = -0.1 / std::log(1.0 - Decode(118.0 / LargestValue));
+  static const double exposure = -0.1 / std::log(1.0 - DecodeSrgb(118.0 / LargestValue));
   return exposure;
-}
-
-std::string Trim(const std::string& text)
-{
-  const char* const blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? std::string()
-                                    : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 double Number(const std::string& text, const std::string& where)
@@ -61,34 +42,19 @@ double Number(const std::string& text, const std::string& where)
 ResponseCurve ResponseCurve::Read(const std::string& fileName)
 {
   const std::string name = "response curve '" + fileName + "'";
-  std::ifstream file(fileName);
-  if (!file)
-  {
-    throw Error(
-      name, "the file cannot be opened", "Give a CSV file with the header exposure,pixel_value");
-  }
   ResponseCurve curve;
   bool header = false;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number)
+  for (const auto& [number, line] :
+    ReadTableLines(name, fileName, "Give a CSV file with the header exposure,pixel_value"))
   {
-    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-    {
-      line.erase(0, 3);
-    }
-    line = Trim(line);
-    if (line.empty() || line[0] == '#')
-    {
-      continue;
-    }
     const std::string where = name + ", line " + std::to_string(number);
     const std::size_t comma = line.find(',');
     if (comma == std::string::npos || line.find(',', comma + 1) != std::string::npos)
     {
       throw Error(where, "there are not two fields", "Give an exposure, a comma and a pixel value");
     }
-    const std::string first = Trim(line.substr(0, comma));
-    const std::string second = Trim(line.substr(comma + 1));
+    const std::string first = Trimmed(line.substr(0, comma));
+    const std::string second = Trimmed(line.substr(comma + 1));
     if (!header)
     {
       if (first != "exposure" || second != "pixel_value")
@@ -124,7 +90,7 @@ double ResponseCurve::Value(double exposure) const
 {
   if (this->Points_.empty())
   {
-    return LargestValue * Encode(-std::expm1(-std::max(0.0, exposure) / FilmExposure()));
+    return LargestValue * EncodeSrgb(-std::expm1(-std::max(0.0, exposure) / FilmExposure()));
   }
   const auto above = std::upper_bound(this->Points_.begin(), this->Points_.end(), exposure,
     [](double value, const Point& point) { return value < point.Exposure; });

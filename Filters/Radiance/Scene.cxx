@@ -100,7 +100,8 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
 
 } // namespace
 
-Scene::Scene(SceneDescription description) : Description_(std::move(description))
+Scene::Scene(SceneDescription description, const Scene* earlier)
+    : Description_(std::move(description))
 {
   CheckDescription(this->Description_);
   this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
@@ -144,8 +145,17 @@ Scene::Scene(SceneDescription description) : Description_(std::move(description)
   const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   this->Lights_ =
     EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
-  this->Shapes_ = Geometry(this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
-  this->ExposedArea_ = ExposedAreas(this->Shapes_, this->Description_.Surfaces, this->EmitterMesh_);
+  this->SharesShapes_ = earlier && earlier->Lower_ == this->Lower_ &&
+                        earlier->Upper_ == this->Upper_ &&
+                        earlier->Description_.Surfaces == this->Description_.Surfaces &&
+                        earlier->EmitterMesh_ == this->EmitterMesh_;
+  this->Shapes_ = this->SharesShapes_
+                    ? earlier->Shapes_
+                    : std::make_shared<const Geometry>(
+                        this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
+  this->ExposedArea_ = this->SharesShapes_ ? earlier->ExposedArea_
+                                           : ExposedAreas(*this->Shapes_,
+                                               this->Description_.Surfaces, this->EmitterMesh_);
 }
 
 } // namespace smokevis

@@ -7,6 +7,7 @@
 #include "Types.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace smokevis
@@ -29,6 +30,8 @@ struct SceneDescription
   SurfaceMesh Surfaces;
   /// Plates of signs and lamps.
   std::vector<EmitterCell> Emitters;
+
+  bool operator==(const SceneDescription&) const = default;
 };
 
 /// A scene made ready: search structures built, input checked. Immutable and safe to share between
@@ -38,7 +41,11 @@ class Scene
 {
 public:
   /// Throws Error where the description is not usable (what, where, what to do).
-  explicit Scene(SceneDescription description);
+  /// @param earlier a scene whose search structures are taken over where its shapes are the same
+  explicit Scene(SceneDescription description, const Scene* earlier = nullptr);
+
+  /// Whether they were.
+  bool SharesShapes() const { return this->SharesShapes_; }
 
   int Bands() const { return this->Description_.Bands; }
   double Albedo() const { return this->Description_.Albedo; }
@@ -57,7 +64,7 @@ public:
     return *std::min_element(scale.begin(), scale.begin() + this->Description_.Bands);
   }
   const Medium& Smoke() const { return this->Smoke_; }
-  const Geometry& Shapes() const { return this->Shapes_; }
+  const Geometry& Shapes() const { return *this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }
 
   /// Surface cells come first among the patches.
@@ -76,7 +83,7 @@ public:
   /// The patch that was hit.
   std::size_t Patch(const Hit& hit) const
   {
-    return this->Shapes_.Cell(hit) + (hit.Emitter ? this->SurfacePatches() : 0);
+    return this->Shapes_->Cell(hit) + (hit.Emitter ? this->SurfacePatches() : 0);
   }
   /// Triangles of surfaces and of emitters; a triangle's cell counts within its mesh.
   const SurfaceMesh& Surfaces() const { return this->Description_.Surfaces; }
@@ -92,7 +99,8 @@ private:
   SurfaceMesh EmitterMesh_;
   Medium Smoke_;
   EmitterSet Lights_;
-  Geometry Shapes_;
+  std::shared_ptr<const Geometry> Shapes_;
+  bool SharesShapes_ = false;
   std::vector<double> PatchArea_;
   /// [patch][side].
   std::vector<double> ExposedArea_;

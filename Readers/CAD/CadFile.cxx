@@ -5,6 +5,7 @@
 #include "BRepModel.h"
 #include "CadFormat.h"
 #include "Errors.h"
+#include "FileEnd.h"
 #include "MeshModel.h"
 
 #include <algorithm>
@@ -108,6 +109,7 @@ CadModel ReadCadFile(const std::string& fileName, const CadOptions& options, Pro
   CheckOptions(options);
   const CadFormat& format = FormatOfFile(fileName);
   CheckFile(fileName);
+  CheckFileEnd(fileName, format.Name);
 
   CadModel model;
   model.Format = format.Name;

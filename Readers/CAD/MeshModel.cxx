@@ -4,9 +4,10 @@
 #include "ColladaNumbers.h"
 #include "CrashGuard.h"
 #include "Errors.h"
+#include "FileEnd.h"
 #include "FileHeader.h"
 #include "Ifc4Rewriter.h"
-#include "PlyHeader.h"
+#include "PlyFile.h"
 #include "SrgbColor.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -374,11 +375,13 @@ std::string Bytes(const std::string& fileName)
 void ReadMeshModel(const std::string& fileName, const CadFormat& format, const CadOptions& options,
   Progress& progress, CadModel& model)
 {
-  if (format.Name == "PLY")
+  const bool lines = format.Name == "PLY" ? CheckPlyFile(fileName) : format.Name == "OBJ";
+  if (lines && EndsInsideLine(fileName))
   {
-    CheckPlyHeader(fileName);
+    model.Warnings.emplace_back("the last line of the file has no end: it may be cut short, which "
+                                "the format does not tell");
   }
-  else if (format.Name == "COLLADA")
+  if (format.Name == "COLLADA")
   {
     CheckColladaNumbers(fileName);
   }

@@ -1,6 +1,7 @@
 #include "ExtinctionSource.h"
 
 #include "Errors.h"
+#include "RowLoops.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,9 +18,6 @@ namespace smokevis
 
 namespace
 {
-
-// More negative than this [1/m] is no rounding of a transport scheme but not smoke at all.
-constexpr float MostNegative = -1e-3F;
 
 // Sets values to 0 where a mask, empty for none, is not 0.
 void ClearMasked(std::span<float> values, std::size_t first, const std::vector<unsigned char>& mask)
@@ -45,40 +42,6 @@ void ClearMasked(std::span<float> values, std::size_t first, const std::vector<u
   {
     values[i] = marks[i] != 0 ? 0.0F : values[i];
   }
-}
-
-// Whether a value can be an extinction coefficient.
-bool IsGood(float value)
-{
-  return value >= MostNegative && value <= std::numeric_limits<float>::max();
-}
-
-// Writes values to target, or adds them to it, rounding errors below 0 as 0. Returns whether all
-// are good. Without a branch inside, so that the compiler takes several values at a time.
-bool CopyGood(std::span<const float> values, float* target)
-{
-  int bad = 0;
-  const std::size_t count = values.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    bad |= static_cast<int>(!(values[i] >= MostNegative)) |
-           static_cast<int>(!(values[i] <= std::numeric_limits<float>::max()));
-    target[i] = values[i] > 0.0F ? values[i] : 0.0F;
-  }
-  return bad == 0;
-}
-
-bool AddGood(std::span<const float> values, float weight, float* target)
-{
-  int bad = 0;
-  const std::size_t count = values.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    bad |= static_cast<int>(!(values[i] >= MostNegative)) |
-           static_cast<int>(!(values[i] <= std::numeric_limits<float>::max()));
-    target[i] += weight * (values[i] > 0.0F ? values[i] : 0.0F);
-  }
-  return bad == 0;
 }
 
 // Whether two terms are of one species.
@@ -360,7 +323,7 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
   {
     const std::size_t frame = mix.Frame[part];
     const double frameTime = field.File().FrameTimes()[frame];
-    const auto invert = [&](std::vector<float>& values)
+    const auto invert = [&](std::span<float> values)
     {
       if (of.Quantity == SmokeQuantity::Visibility)
       {
@@ -380,8 +343,18 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
     const bool last = part + 1 == parts;
     const bool changes = scaled || term.Density || !solid.empty() || mode.UsesCovered;
     field.ForEachRow(frame, solid, scratch.Values, invert,
-      [&](std::size_t cell, int j, int k, std::span<const float> row)
+      [&](std::size_t cell, int j, int k, const FieldRow& read)
       {
+        float* const target = sum.data() + cell;
+        if (!changes && !mode.Sums)
+        {
+          if (!read.CopyTo(target))
+          {
+            this->FailAt(field, frameTime, read.Values(), j, k);
+          }
+          return;
+        }
+        std::span<const float> row = read.Values();
         if (changes)
         {
           scratch.Row.resize(row.size());
@@ -397,8 +370,7 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
           ClearMasked(own, cell, mode.UsesCovered ? scratch.Covered : none);
           row = own;
         }
-        float* const target = sum.data() + cell;
-        if (!(mode.Sums ? AddGood(row, weight, target) : CopyGood(row, target)))
+        if (!(mode.Sums ? AddExtinction(row, weight, target) : CopyExtinction(row, target)))
         {
           this->FailAt(field, frameTime, row, j, k);
         }
@@ -414,7 +386,7 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
 void ExtinctionSource::FailAt(
   const VolumeField& field, double time, std::span<const float> row, int j, int k) const
 {
-  const auto bad = std::find_if_not(row.begin(), row.end(), IsGood);
+  const auto bad = std::find_if_not(row.begin(), row.end(), IsExtinction);
   const SmokeCandidate& of = field.Of();
   std::ostringstream what;
   what << of.Label.LongLabel << " gives the extinction coefficient " << *bad << " 1/m in cell ("

@@ -2,6 +2,7 @@
 
 #include "BlackBody.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -72,6 +73,15 @@ FlameLight SpreadFlameLight(const SmvMesh& mesh, std::span<const float> heatRele
                             : 0.0F;
   }
   return light;
+}
+
+//------------------------------------------------------------------------------------------------
+double TotalHeatRelease(const SmvMesh& mesh, std::span<const float> heatRelease)
+{
+  double total = 0.0;
+  ForEachVolume(mesh, [&](std::size_t cell, double volume)
+    { total += std::max(heatRelease[cell], 0.0F) * WattsPerKilowatt * volume; });
+  return total;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ namespace smokevis
 /// The flames' light, in sums over cells.
 struct FlameLight
 {
-  /// Heat release rate [W]; 0 where only the temperature is known.
+  /// Heat release rate [W]; 0 where it is not asked for.
   double HeatRelease = 0.0;
   /// Light that the model asks for, and the part that burning cells with smoke send out [lm].
   double LumensAsked = 0.0;
@@ -31,6 +31,10 @@ constexpr double LeastAbsorption = 1e-3;
 /// @param heatRelease [kW/m3], extinction [1/m] and luminance [cd/m2], a cell each, x fastest
 FlameLight SpreadFlameLight(const SmvMesh& mesh, std::span<const float> heatRelease,
   std::span<const float> extinction, double albedo, double efficacy, std::span<float> luminance);
+
+/// Heat release rate of a mesh [W].
+/// @param heatRelease [kW/m3], a cell each, x fastest
+double TotalHeatRelease(const SmvMesh& mesh, std::span<const float> heatRelease);
 
 /// Lets the smoke glow like a black body of its temperature: L_emit is BlackBodyLuminance().
 /// @param temperature [C]

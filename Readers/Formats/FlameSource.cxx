@@ -44,16 +44,18 @@ FlameSource::FlameSource(const SmvFile& index, FlameModel model)
     }
     catch (const Error& error)
     {
-      failures.try_emplace(mesh, error.what());
+      std::string& said = failures[mesh];
+      said += (said.empty() ? "" : "; ") + std::string(error.what());
     }
   }
   for (const auto& [mesh, error] : failures)
   {
-    if (fields_[mesh].empty())
-    {
-      warnings_.push_back(
-        "The flames of mesh '" + index.Meshes[mesh].Name + "' are left out. " + error);
-    }
+    const std::string flames = "The flames of mesh '" + index.Meshes[mesh].Name + "' ";
+    warnings_.push_back(
+      flames +
+      (fields_[mesh].empty() ? "are left out. "
+                             : "come from the next best source where this is missing: ") +
+      error);
   }
   description_ = text.str();
 }
@@ -63,6 +65,28 @@ bool FlameSource::HasData() const
 {
   return std::any_of(
     fields_.begin(), fields_.end(), [](const auto& fields) { return !fields.empty(); });
+}
+
+//------------------------------------------------------------------------------------------------
+std::string FlameSource::MissingFrame(int mesh, double time, TimeInterpolation interpolation) const
+{
+  std::ostringstream text;
+  for (const VolumeField& field : fields_[mesh])
+  {
+    const std::vector<double>& times = field.File().FrameTimes();
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    const double spacing = times.size() > 1 ? (*last - *first) / (times.size() - 1.0) : 0.0;
+    // Flames may be written at other times than smoke; both times are rounded to 4 bytes.
+    const double near = spacing * 1.01 + 1e-4 * std::max(1.0, std::abs(time));
+    const double shown = field.Times().At(time, interpolation).Time;
+    if (std::abs(shown - time) > near)
+    {
+      text << (text.tellp() > 0 ? "\n" : "") << field.File().Path() << ": "
+           << field.Of().Label.LongLabel << " of mesh '" << index_.Meshes[mesh].Name
+           << "' has no frame near " << time << " s: the flames of " << shown << " s are shown.";
+    }
+  }
+  return text.str();
 }
 
 //------------------------------------------------------------------------------------------------

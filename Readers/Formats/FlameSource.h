@@ -39,6 +39,10 @@ public:
   const std::string& Description() const { return description_; }
   const std::vector<std::string>& Warnings() const { return warnings_; }
 
+  /// What to say where a file of @p mesh has no frame near @p time [s], as one cut short has none
+  /// towards the end: the file, and the time of the frame that stands in. Empty where all have.
+  std::string MissingFrame(int mesh, double time, TimeInterpolation interpolation) const;
+
   /// Reads @p mesh at @p time, x fastest: no heat, or no temperature, in solids and where there is
   /// no data. Returns the time that the values are of [s]. Threads may read different meshes at
   /// once.

@@ -6,6 +6,15 @@ namespace smokevis
 {
 
 //------------------------------------------------------------------------------------------------
+void Mix(const FrameMix& mix, const std::vector<float>& second, std::vector<float>& values)
+{
+  const auto before = static_cast<float>(mix.Weight[0]);
+  const auto after = static_cast<float>(mix.Weight[1]);
+  std::transform(values.begin(), values.end(), second.begin(), values.begin(),
+    [before, after](float a, float b) { return before * a + after * b; });
+}
+
+//------------------------------------------------------------------------------------------------
 FrameTimes::FrameTimes(const std::vector<double>& times)
 {
   frames_.reserve(times.size());

@@ -28,6 +28,9 @@ struct FrameMix
   double Time = 0.0;
 };
 
+/// Mixes the values of the second frame into those of the first.
+void Mix(const FrameMix& mix, const std::vector<float>& second, std::vector<float>& values);
+
 /// The frames of a file by time. A restarted run writes some times again: the later writing holds.
 class FrameTimes
 {

@@ -26,7 +26,8 @@ struct GeomTriangles
 /// integers, and whether the first frame is fixed), then frames of time, (points, triangles,
 /// tetrahedra), coordinates, corners counted from 1, surfaces. A file of solids (.ge) has the
 /// coordinates of textures behind the surfaces; one of cut faces (.gcf) has their locations before
-/// and their geometries behind. Opening it finds the frames.
+/// and their geometries behind. The layout of solids agrees with what Smokeview reads (ReadGeom2 of
+/// its public source). Opening it finds the frames.
 class GeomFile
 {
 public:

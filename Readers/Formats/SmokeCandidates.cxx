@@ -98,6 +98,22 @@ SmokeSourceKind SourceOf(const SmokeCandidate& candidate)
   }
 }
 
+// How exact a candidate is, the least the best: see FindSmokeCandidates().
+std::tuple<int, SmokeSourceKind, bool> Worth(
+  const SmokeCandidate& candidate, const SmokeOptions& options)
+{
+  const bool mass = candidate.Source == SmokeSourceKind::DensitySlice ||
+                    candidate.Source == SmokeSourceKind::MassFractionSlice;
+  const bool slice = mass || candidate.Source == SmokeSourceKind::ExtinctionSlice ||
+                     candidate.Source == SmokeSourceKind::OpticalDensitySlice;
+  const bool ofCells =
+    candidate.CellCentred && std::all_of(candidate.Density.begin(), candidate.Density.end(),
+                               [](const SmokeCandidate& density) { return density.CellCentred; });
+  const bool known = !mass || candidate.StatesMassExtinction || options.MassExtinction > 0.0;
+  const int level = !slice ? 2 : ofCells && known ? 0 : 1;
+  return {level, candidate.Source, !candidate.CellCentred};
+}
+
 // What 8-bit smoke calls its species: the label without its quantity.
 std::string Smoke3DSpecies(const std::string& label)
 {
@@ -122,7 +138,8 @@ public:
     {
       if (smoke.MassExtinction > 0.0)
       {
-        massExtinction_[Smoke3DSpecies(UpperCase(smoke.Quantity.LongLabel))] = smoke.MassExtinction;
+        massExtinction_[Smoke3DSpecies(UpperCase(smoke.Quantity.LongLabel))] = {
+          smoke.MassExtinction, smoke.StatesMassExtinction};
       }
     }
   }
@@ -147,7 +164,8 @@ public:
     candidate.Species = SpeciesOf(label, found->first);
     candidate.Label = quantity;
     const auto known = massExtinction_.find(candidate.Species);
-    candidate.MassExtinction = known == massExtinction_.end() ? SootMassExtinction : known->second;
+    std::tie(candidate.MassExtinction, candidate.StatesMassExtinction) =
+      known == massExtinction_.end() ? std::pair(SootMassExtinction, false) : known->second;
     const bool mass = candidate.Quantity == SmokeQuantity::Density ||
                       candidate.Quantity == SmokeQuantity::MassFraction;
     const bool soot = candidate.Species.find("SOOT") != std::string::npos;
@@ -159,7 +177,8 @@ public:
   }
 
 private:
-  std::map<std::string, double> massExtinction_;
+  // And whether the index says it.
+  std::map<std::string, std::pair<double, bool>> massExtinction_;
 };
 
 void SetSlice(const SmvFile& index, const SmvSlice& slice, SmokeCandidate& candidate)
@@ -271,6 +290,7 @@ void AddSmoke3D(const SmvFile& index, std::vector<SmokeCandidate>& candidates)
                              : SmokeQuantity::Extinction;
       candidate.Range = WholeRange(index.Meshes[smoke.Mesh]);
       candidate.MassExtinction = smoke.MassExtinction;
+      candidate.StatesMassExtinction = smoke.StatesMassExtinction;
       candidate.Label = smoke.Quantity;
       candidate.Files.emplace_back(0.0, smoke.File);
       candidates.push_back(std::move(candidate));
@@ -312,10 +332,10 @@ std::vector<SmokeCandidate> FindSmokeCandidates(const SmvFile& index, const Smok
     std::erase_if(candidates, std::not_fn(unnamed));
   }
   std::stable_sort(candidates.begin(), candidates.end(),
-    [](const SmokeCandidate& a, const SmokeCandidate& b)
+    [&options](const SmokeCandidate& a, const SmokeCandidate& b)
     {
-      return std::make_tuple(a.Mesh, std::cref(a.Species), a.Source, !a.CellCentred) <
-             std::make_tuple(b.Mesh, std::cref(b.Species), b.Source, !b.CellCentred);
+      return std::make_tuple(a.Mesh, std::cref(a.Species), Worth(a, options)) <
+             std::make_tuple(b.Mesh, std::cref(b.Species), Worth(b, options));
     });
   return candidates;
 }

@@ -24,7 +24,8 @@ enum class SmokeQuantity
   Other
 };
 
-/// Kinds of sources of extinction, from the best; Automatic stands for the best there is.
+/// Kinds of sources of extinction; Automatic stands for the best there is, see
+/// FindSmokeCandidates().
 enum class SmokeSourceKind
 {
   Automatic,
@@ -46,6 +47,8 @@ struct SmokeOptions
   /// Km [m2/kg] to take instead of the run's own; 0 for the run's own.
   double MassExtinction = 0.0;
   SmokeSourceKind Source = SmokeSourceKind::Automatic;
+
+  bool operator==(const SmokeOptions&) const = default;
 };
 
 /// A file, or for Plot3D a file a time, with one quantity on one mesh.
@@ -67,8 +70,9 @@ struct SmokeCandidate
   /// Nodes of the range covered, and whether that is the whole mesh.
   IndexRange Range{};
   bool WholeMesh = true;
-  /// Km of the species [m2/kg], as the run has it.
+  /// Km of the species [m2/kg], as the run has it, and whether its index says so.
   double MassExtinction = 0.0;
+  bool StatesMassExtinction = false;
   /// K = Factor times the value; for VISIBILITY K = Factor / value.
   double Factor = 1.0;
   /// Scale of 8-bit files other than smoke.
@@ -83,11 +87,16 @@ struct SmokeCandidate
   SmokeSourceKind Source = SmokeSourceKind::Automatic;
 };
 
-/// Everything 3-D that gives extinction, by mesh, species and worth. The kinds of sources are, from
-/// the best: slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of a smoke species, MASS
-/// FRACTION of one with the gas DENSITY; 8-bit smoke (.s3d) that holds density; Plot3D; slices of
-/// VISIBILITY, which is capped; and 8-bit smoke that holds opacity, which is coarse. Of each kind
-/// cell-centred comes before node-centred.
+/// Everything 3-D that gives extinction, by mesh, species and worth. From the best:
+///  1. cell-centred slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of a smoke species,
+///     MASS FRACTION of one with the gas DENSITY: what FDS computed, but for rounding. DENSITY and
+///     MASS FRACTION only where Km is known, from the index or the options;
+///  2. the same of nodes, from which a cell gets the mean over itself and its 26 neighbours, and
+///     DENSITY and MASS FRACTION where FDS's default of Km has to be taken;
+///  3. 8-bit smoke (.s3d) that holds density: of nodes, and rounded to 1/254 of the largest;
+///  4. Plot3D: of nodes, and of few times;
+///  5. slices of VISIBILITY, which is capped, cell-centred before node-centred;
+///  6. 8-bit smoke that holds opacity, which is coarse.
 std::vector<SmokeCandidate> FindSmokeCandidates(const SmvFile& index, const SmokeOptions& options);
 
 /// Everything 3-D with one of these long labels (in upper case), by mesh and worth: earlier labels

@@ -106,6 +106,8 @@ struct SmvSmoke3D
   int Mesh = 0;
   /// Mass extinction coefficient Km [m2/kg]; 0 for quantities that are not smoke.
   double MassExtinction = 0.0;
+  /// Whether the index says so; FDS's default is taken where it does not.
+  bool StatesMassExtinction = false;
   std::string File;
   SmvQuantity Quantity;
 };
@@ -117,6 +119,15 @@ struct SmvPlot3D
   double Time = 0.0;
   std::string File;
   std::array<SmvQuantity, 5> Quantities;
+};
+
+/// One boundary file (.bf): a quantity on the walls of a mesh.
+struct SmvBoundary
+{
+  int Mesh = 0;
+  bool CellCentred = false;
+  std::string File;
+  SmvQuantity Quantity;
 };
 
 /// One file of complex geometry: solids (.ge) or the faces that they cut out of cells (.gcf).
@@ -165,6 +176,7 @@ public:
   std::vector<SmvSlice> Slices;
   std::vector<SmvSmoke3D> Smoke3D;
   std::vector<SmvPlot3D> Plot3D;
+  std::vector<SmvBoundary> Boundaries;
   std::vector<SmvGeometry> Geometries;
   std::vector<SmvDevice> Devices;
   /// Text tables (type such as `devc` or `hrr`, and file name).

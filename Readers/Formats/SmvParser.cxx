@@ -165,6 +165,10 @@ void SmvParser::Parse(std::string_view line)
   {
     this->ParsePlot3D(rest);
   }
+  else if (word == "BNDF" || word == "BNDC")
+  {
+    this->ParseBoundary(rest, word == "BNDC");
+  }
   else if (word == "GEOM" || word == "BGEOM" || word == "CGEOM")
   {
     // Lines about the single bodies follow the file, indented.
@@ -187,6 +191,13 @@ void SmvParser::Parse(std::string_view line)
 //------------------------------------------------------------------------------------------------
 void SmvParser::Check()
 {
+  if (strangeChanges_ > 0)
+  {
+    const std::string more =
+      strangeChanges_ > 1 ? " (and " + std::to_string(strangeChanges_ - 1) + " more like it)" : "";
+    index_.Warnings.push_back(
+      strangeChange_ + more + ". What it shows, hides, opens or closes stays as it is.");
+  }
   if (index_.Meshes.empty())
   {
     throw Error(index_.Path, "the file names no mesh (no GRID entry)",

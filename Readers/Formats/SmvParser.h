@@ -50,8 +50,10 @@ private:
   void ParseSlice(std::string_view line, bool cellCentred);
   void ParseSmoke3D(std::string_view line);
   void ParsePlot3D(std::string_view line);
+  void ParseBoundary(std::string_view line, bool cellCentred);
   void ParseDevice();
   void ParseEvent(std::string_view line, bool obstruction, bool on);
+  void LeaveOutChange(const std::string& what);
   std::array<int, 6> CheckedRange(
     const std::vector<double>& numbers, int mesh, const char* what) const;
 
@@ -60,6 +62,9 @@ private:
   std::vector<std::string_view> lines_;
   std::size_t line_ = 0;
   std::array<int, 3> cells_{};
+  /// The first change that is left out, and how many are.
+  std::string strangeChange_;
+  int strangeChanges_ = 0;
 };
 
 } // namespace smokevis

@@ -247,7 +247,8 @@ void SmvParser::ParseSmoke3D(std::string_view line)
   smoke.Quantity = this->NextQuantity();
   // Before FDS 6.7.9 the index did not say Km; soot had FDS's default.
   const bool soot = smoke.Quantity.LongLabel.find("SOOT") != std::string::npos;
-  smoke.MassExtinction = numbers.size() > 1 ? numbers[1] : (soot ? 8700.0 : 0.0);
+  smoke.StatesMassExtinction = numbers.size() > 1;
+  smoke.MassExtinction = smoke.StatesMassExtinction ? numbers[1] : (soot ? 8700.0 : 0.0);
   index_.Smoke3D.push_back(std::move(smoke));
 }
 
@@ -261,13 +262,29 @@ void SmvParser::ParsePlot3D(std::string_view line)
   }
   SmvPlot3D plot;
   plot.Time = numbers[0];
-  plot.Mesh = this->MeshNumber(static_cast<int>(numbers[1]), "a Plot3D file");
+  plot.Mesh = this->MeshNumber(ToInteger(numbers[1]), "a Plot3D file");
   plot.File = this->NextText();
   for (SmvQuantity& quantity : plot.Quantities)
   {
     quantity = this->NextQuantity();
   }
   index_.Plot3D.push_back(std::move(plot));
+}
+
+//------------------------------------------------------------------------------------------------
+void SmvParser::ParseBoundary(std::string_view line, bool cellCentred)
+{
+  const auto mesh = SplitIntegers(line, 1, 6);
+  if (mesh.empty())
+  {
+    this->Fail("a boundary file needs its mesh number");
+  }
+  SmvBoundary boundary;
+  boundary.Mesh = this->MeshNumber(mesh[0], "a boundary file");
+  boundary.CellCentred = cellCentred;
+  boundary.File = this->NextText();
+  boundary.Quantity = this->NextQuantity();
+  index_.Boundaries.push_back(std::move(boundary));
 }
 
 //------------------------------------------------------------------------------------------------
@@ -291,13 +308,24 @@ void SmvParser::ParseEvent(std::string_view line, bool obstruction, bool on)
   {
     this->Fail("a change of an obstruction or vent needs its mesh number");
   }
-  SmvMesh& mesh = index_.Meshes[this->MeshNumber(meshNumber[0], "a change")];
-  const std::size_t size = obstruction ? mesh.Obstructions.size() : mesh.Vents.size();
-  if (numbers[0] < 1 || numbers[0] > static_cast<double>(size))
+  const std::string thing = obstruction ? "obstruction " : "vent ";
+  const auto meshes = static_cast<int>(index_.Meshes.size());
+  if (meshNumber[0] < 1 || meshNumber[0] > meshes)
   {
-    this->Fail("a change names an obstruction or vent that mesh '" + mesh.Name + "' lacks");
+    this->LeaveOutChange("a change of " + thing + "names mesh " + std::to_string(meshNumber[0]) +
+                         " of " + std::to_string(meshes));
+    return;
   }
-  const auto place = static_cast<std::size_t>(numbers[0]) - 1;
+  SmvMesh& mesh = index_.Meshes[meshNumber[0] - 1];
+  const std::size_t size = obstruction ? mesh.Obstructions.size() : mesh.Vents.size();
+  const int number = ToInteger(numbers[0]);
+  if (number < 1 || static_cast<std::size_t>(number) > size || !std::isfinite(numbers[1]))
+  {
+    this->LeaveOutChange("a change names " + thing + std::to_string(number) + " of mesh '" +
+                         mesh.Name + "', which has " + std::to_string(size));
+    return;
+  }
+  const auto place = static_cast<std::size_t>(number) - 1;
   std::vector<SmvEvent>& events =
     obstruction ? mesh.Obstructions[place].Events : mesh.Vents[place].Events;
   // A restarted run may write a change again, out of order.
@@ -305,6 +333,16 @@ void SmvParser::ParseEvent(std::string_view line, bool obstruction, bool on)
   events.insert(std::upper_bound(events.begin(), events.end(), event,
                   [](const SmvEvent& a, const SmvEvent& b) { return a.Time < b.Time; }),
     event);
+}
+
+//------------------------------------------------------------------------------------------------
+void SmvParser::LeaveOutChange(const std::string& what)
+{
+  ++strangeChanges_;
+  if (strangeChange_.empty())
+  {
+    strangeChange_ = index_.Path + ", line " + std::to_string(line_) + ": " + what;
+  }
 }
 
 } // namespace smokevis

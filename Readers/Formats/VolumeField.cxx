@@ -89,9 +89,10 @@ double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
   {
     const auto weight = static_cast<float>(mix.Weight[part]);
     this->ForEachRow(
-      mix.Frame[part], solid, scratch, [](std::vector<float>&) {},
-      [&](std::size_t cell, int, int, std::span<const float> row)
+      mix.Frame[part], solid, scratch, [](std::span<float>) {},
+      [&](std::size_t cell, int, int, const FieldRow& read)
       {
+        const std::span<const float> row = read.Values();
         for (std::size_t i = 0; i < row.size(); ++i)
         {
           if (solid.empty() || solid[cell + i] == 0)

@@ -2,19 +2,60 @@
 #pragma once
 
 #include "FrameTimes.h"
+#include "RowLoops.h"
 #include "SmokeCandidates.h"
 #include "SmvFile.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace smokevis
 {
+
+/// A row of cells along x, as it is read.
+class FieldRow
+{
+public:
+  /// Of cells.
+  explicit FieldRow(std::span<const float> values) : values_(values) {}
+
+  /// Of nodes: sums of two rows each in front and behind, of a row of nodes below and the one
+  /// above.
+  FieldRow(const float* before, const float* sums, std::span<float> space)
+      : before_(before), sums_(sums), space_(space)
+  {
+  }
+
+  std::size_t size() const { return before_ ? space_.size() : values_.size(); }
+
+  /// A value a cell.
+  std::span<const float> Values() const
+  {
+    if (!before_)
+    {
+      return values_;
+    }
+    MeansOfNodes(before_, sums_, space_);
+    return space_;
+  }
+
+  /// CopyExtinction() of Values(), in one go.
+  bool CopyTo(float* target) const
+  {
+    return before_ ? CopyExtinctionOfNodes(before_, sums_, space_.size(), target)
+                   : CopyExtinction(values_, target);
+  }
+
+private:
+  std::span<const float> values_;
+  const float* before_ = nullptr;
+  const float* sums_ = nullptr;
+  std::span<float> space_;
+};
 
 /// A candidate with its files open. One thread at a time may read it.
 class VolumeField
@@ -30,10 +71,10 @@ public:
   const FrameTimes& Times() const { return times_; }
 
   /// Reads a frame and calls visit(cell, j, k, row) for each row of cells of the range, where cell
-  /// is the number of the first and row, a std::span<const float>, the values of all; a cell gets
-  /// the mean of its eight nodes. FDS gives a node the mean over its gas cells, and 0 without any;
-  /// all eight nodes of a gas cell have one: the cell itself. Of 8-bit smoke, where FDS averaged
-  /// solid cells in as clear ones, they are taken out again.
+  /// is the number of the first and row the FieldRow of all; a cell gets the mean of its eight
+  /// nodes. FDS gives a node the mean over its gas cells, and 0 without any; all eight nodes of a
+  /// gas cell have one: the cell itself. Of 8-bit smoke, where FDS averaged solid cells in as clear
+  /// ones, they are taken out again.
   /// @param solid   marks the mesh's solid cells; empty for none
   /// @param scratch working space
   /// @param prepare prepare(values) may change the values that the file has first
@@ -76,21 +117,23 @@ void VolumeField::ForEachRow(std::size_t frame, const std::vector<unsigned char>
   if (!file_->ReadsParts())
   {
     this->ReadFrame(frame, solid, scratch);
-    prepare(scratch);
+    prepare(std::span<float>(scratch));
     this->VisitLayers(r[4], r[5], scratch.data() + ghosts * layer + surplus, visit);
     return;
   }
-  // Cells need each layer once; of nodes, the last of a part is the first of the next again, so
-  // that larger parts pay.
-  const std::size_t partBytes = of_.CellCentred ? 64 << 10 : 256 << 10;
-  const int extra = of_.CellCentred ? 0 : 1;
+  // Cells need each layer once; of nodes, the last of a part is the first of the next again.
+  const std::size_t partBytes = of_.CellCentred ? 64 << 10 : 96 << 10;
+  const std::size_t shared = of_.CellCentred ? 0 : layer;
   const int layers = static_cast<int>(std::max<std::size_t>(partBytes / sizeof(float) / layer, 1));
   for (int begin = r[4]; begin < r[5]; begin += layers)
   {
     const int end = std::min(begin + layers, r[5]);
-    scratch.resize((end - begin + extra) * layer);
-    file_->ReadPart(frame, (begin - r[4] + ghosts) * layer, scratch);
-    prepare(scratch);
+    const std::size_t kept = begin == r[4] ? 0 : shared;
+    std::copy(scratch.end() - static_cast<std::ptrdiff_t>(kept), scratch.end(), scratch.begin());
+    scratch.resize((end - begin) * layer + shared);
+    const std::span<float> fresh = std::span<float>(scratch).subspan(kept);
+    file_->ReadPart(frame, (begin - r[4] + ghosts) * layer + kept, fresh);
+    prepare(fresh);
     this->VisitLayers(begin, end, scratch.data() + surplus, visit);
   }
   file_->CloseParts();
@@ -113,29 +156,23 @@ void VolumeField::VisitLayers(int begin, int end, const float* first, Visit&& vi
   for (int k = begin; k < end; ++k)
   {
     const float* row = first + (k - begin) * layer;
-    const auto addLayers = [&row, layer](std::vector<float>& sums)
-    { std::transform(row, row + sums.size(), row + layer, sums.begin(), std::plus<>()); };
     if (!of_.CellCentred)
     {
-      addLayers(high);
+      AddRows(row, row + layer, high);
     }
     for (int j = r[2]; j < r[3]; ++j)
     {
       const std::size_t cell = (static_cast<std::size_t>(k) * ny + j) * nx + r[0];
       if (of_.CellCentred)
       {
-        visit(cell, j, k, std::span<const float>(row, length));
+        visit(cell, j, k, FieldRow({row, length}));
         row += stride;
         continue;
       }
       row += stride;
       low.swap(high);
-      addLayers(high);
-      for (std::size_t i = 0; i < length; ++i)
-      {
-        means[i] = 0.125F * ((low[i] + low[i + 1]) + (high[i] + high[i + 1]));
-      }
-      visit(cell, j, k, std::span<const float>(means));
+      AddRows(row, row + layer, high);
+      visit(cell, j, k, FieldRow(low.data(), high.data(), means));
     }
   }
 }

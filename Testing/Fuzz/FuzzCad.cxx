@@ -2,9 +2,10 @@
 #include "FuzzFile.h"
 
 #include "ColladaNumbers.h"
+#include "FileEnd.h"
 #include "FileHeader.h"
 #include "Ifc4Rewriter.h"
-#include "PlyHeader.h"
+#include "PlyFile.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
@@ -17,10 +18,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
   return fuzz::Try(
     [&]
     {
-      switch (data[0] % 4)
+      switch (data[0] % 5)
       {
       case 0:
-        CheckPlyHeader(path);
+        CheckPlyFile(path);
         break;
       case 1:
         CheckColladaNumbers(path);
@@ -29,10 +30,19 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
       case 2:
         ReadDxfHeader(path);
         break;
-      default:
+      case 3:
+      {
         ReadIfcHeader(path);
         std::size_t unread = 0;
         RewriteIfc4({reinterpret_cast<const char*>(data) + 1, size - 1}, 15.0, unread);
+        break;
+      }
+      default:
+        for (const char* const format : {"STEP", "IGES", "DXF", "STL", "glTF", "3DS", "FBX"})
+        {
+          fuzz::Try([&] { CheckFileEnd(path, format); });
+        }
+        EndsInsideLine(path);
       }
     });
 }

@@ -49,6 +49,26 @@ def check_framing():
     check_close("window", window.GetValue(3), 0.5 * 15.1 / (1000.0 * behind), 1e-9)
 
 
+def check_sensor():
+    """The sensor's illuminance is that of the photograph: 0.65 L / (N i / f)^2 (ISO 12232)."""
+    sign = simple.ExitSign(Center=[4.0, 2.0, 2.0], Normal=[-1.0, 0.0, 0.0], Pattern="Square",
+                           SquareFraction=1.0, Width=0.3, Height=0.3, Luminance=100.0)
+    view = simple.VisibilityImage(
+        LightField=clear(sign), CameraPosition=[3.0, 2.0, 2.0], TargetSign=0, ImageSize=[20, 20],
+        FocalLength=100.0, FNumber=4.0, ExposureTime=0.02)
+    for focus in (0.0, 1.2):
+        view.FocusDistance = focus
+        image = fetch(view)
+        stop = 4.0 * field(image, "ImageDistance") / 100.0
+        illuminance = field(image, "SensorIlluminance")
+        check_close("illuminance", illuminance, 0.65 * 100.0 / stop ** 2, 1e-5)
+        values = point_array(view.GetClientSideObject().GetOutputDataObject(1), "Photograph")
+        decoded = ((118 / 255 + 0.055) / 1.055) ** 2.4
+        light = 1.0 - (1.0 - decoded) ** (illuminance * 0.02 / 0.1)
+        check_close("pixel value", values[210], 255 * (1.055 * light ** (1 / 2.4) - 0.055),
+                    absolute=0.5)
+
+
 def check_blur():
     """The edge of a bright plate becomes the integral of a disc."""
     view = simple.VisibilityImage(
@@ -158,9 +178,26 @@ def check_eye():
                 field(image, "VisibleProbability"), 1e-5)
     floor.ObserverAge = 80
     assert point_array(fetch(floor), "EyeLuminance")[0] > 1.5 * field(image, "EyeLuminance")
+    # What is wrong with the eye, both say in the same words.
+    for name, value, part in (("AdaptationLuminance", -1.0, "it is negative"),
+                              ("AdaptationTime", -1.0, "it is negative"),
+                              ("DarkLuminance", -0.1, "it is negative"),
+                              ("Acuity", math.nan, "it is not finite"),
+                              ("ObserverAge", 101.0, "it is not from 0 to 100")):
+        texts = []
+        for proxy, kind in ((view, "vtkVisibilityImage"), (floor, "vtkFloorMapOfVisibility")):
+            before = getattr(proxy, name)
+            setattr(proxy, name, value)
+            with scenes.Messages() as messages:
+                proxy.UpdatePipeline()
+            assert messages.count("ERROR", kind) == 1, messages.text
+            setattr(proxy, name, before)
+            texts.append(messages.text[messages.text.index(name + ": " + part):].splitlines()[0])
+        assert texts[0] == texts[1], texts
 
 
 check_framing()
+check_sensor()
 check_blur()
 check_photograph()
 check_eye()

@@ -165,7 +165,7 @@ def check_errors(path):
         file.write("IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n1 x 3\n")
     for what, part, properties in (
             ("bad number", "line 7: 'x' stands for the intensity", {"PhotometricFile": path}),
-            ("no file", "cannot be read", {"PhotometricFile": path + "x"})):
+            ("no file", "no such file", {"PhotometricFile": path + "x"})):
         with scenes.Messages() as messages:
             cells = fetch(simple.Luminaire(**properties)).GetNumberOfCells()
         assert messages.count("ERROR", "vtkLuminaireSource") == 1, (what, messages.text)

@@ -211,6 +211,31 @@ def check_reflecting_sign_in_room():
     check_close("luminance", bright, 0.75 * mean / math.pi, 0.3)
 
 
+def check_blank_plate():
+    """Standard deviation over mean is the paper's method: a blank plate that is lit from the side
+    has a contrast, which is that of the illuminance's slope, and observers count as seeing it. What
+    tells it from a sign is that its lit parts and its unlit ones, which are none, do not differ."""
+    def plate(fraction):
+        return simple.ExitSign(Center=[0.0, 0.0, 0.0], Width=0.8, Height=0.8, Pattern="Square",
+                               SquareFraction=fraction, Luminance=0, Reflectance=0.8,
+                               UnlitReflectance=0.1)
+    lamp = simple.Luminaire(Center=[0.4, -0.4, 0.0], Normal=[-1, 0, 0], Up=[0, 0, 1], Width=0.05,
+                            Height=0.05, Luminance=40000)
+
+    def measured(fraction):
+        light = simple.SmokeLightField(Smoke=air(0.0), Emitters=[plate(fraction), lamp], Albedo=0.0)
+        light.UpdatePipeline()
+        return look_at(light, [6.0, 0.0, 0.0])
+    blank = measured(1.0)
+    # E falls as cos^2 / r^2 with the distance from the lamp's foot on the plate's edge.
+    y, z = numpy.meshgrid(numpy.linspace(0.0, 0.8, 401), numpy.linspace(-0.4, 0.4, 401))
+    fall = 1.0 / (y ** 2 + z ** 2 + 0.16) ** 2
+    check_close("slope", field(blank, "Contrast"), fall.std() / fall.mean(), 0.02)
+    assert field(blank, "VisibleProbability") > 0.99
+    assert field(blank, "WebberContrast") == 0.0 and field(blank, "UnlitLuminance") == 0.0
+    assert field(measured(0.5), "UL924Contrast") > 0.5
+
+
 def check_emission_exponent():
     """Seen 60 degrees off the normal, luminance is down by cos^n."""
     for exponent in (0.0, 2.0):
@@ -250,6 +275,7 @@ with tempfile.TemporaryDirectory() as temporary:
     check_table(temporary)
 check_reflecting_sign()
 check_reflecting_sign_in_room()
+check_blank_plate()
 check_emission_exponent()
 check_readable_presets()
 print("signs: passed")

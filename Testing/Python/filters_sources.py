@@ -69,26 +69,59 @@ def check_colour():
     assert numpy.allclose(luminance[:, 2], 0.2 * luminance[:, 1])
 
 
-def check_image(folder):
-    grey = numpy.array([[0, 51, 255], [255, 0, 0]], dtype=numpy.uint8)  # bottom row first
-    stencil = vtkImageData()
-    stencil.SetDimensions(3, 2, 1)
-    stencil.GetPointData().SetScalars(numpy_to_vtk(grey.ravel(), deep=True))
-    path = os.path.join(folder, "stencil.png")
+def write_png(path, values):
+    """Rows of pixels, the bottom one first, with as many components as the last axis has."""
+    image = vtkImageData()
+    image.SetDimensions(values.shape[1], values.shape[0], 1)
+    image.GetPointData().SetScalars(
+        numpy_to_vtk(values.reshape(-1, values.shape[2]), deep=True))
     writer = vtkPNGWriter()
     writer.SetFileName(path)
-    writer.SetInputData(stencil)
+    writer.SetInputData(image)
     writer.Write()
+
+
+def linear(value):
+    """IEC 61966-2-1."""
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def check_image(folder):
+    grey = numpy.array([[0, 51, 255], [255, 0, 0]], dtype=numpy.uint8)
+    path = os.path.join(folder, "stencil.png")
+    write_png(path, grey[:, :, None])
     data = fetch(simple.ExitSign(Pattern="Image", PatternFile=path, Luminance=100,
                                  UnlitLuminance=50))
     areas, _ = polygons(data)
     # The two black pixels beside each other are one cell.
     assert numpy.allclose(areas, numpy.array([1, 1, 1, 1, 2]) * 0.18 / 6)
-    assert numpy.allclose(cell_array(data, "Luminance"), [50, 60, 100, 100, 50])
+    assert numpy.allclose(cell_array(data, "Luminance"),
+                          [50, 50 + 50 * linear(0.2), 100, 100, 50], rtol=1e-9)
     # The first cell is the lower left one as seen from the front: the front looks along +x with z up.
     corner = numpy.array(data.GetCell(0).GetPoints().GetPoint(0))
     assert numpy.allclose(corner, [0.0, -0.3, -0.15]), corner
     return path
+
+
+def check_coloured_image(folder):
+    """A pixel's share is its luminance: sRGB is made linear first, its colours weighted then."""
+    pixels = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (128, 128, 128), (200, 30, 90), (255, 255, 0)]
+    expected = [numpy.dot([0.2126, 0.7152, 0.0722], [linear(v / 255) for v in pixel])
+                for pixel in pixels]
+    path = os.path.join(folder, "colours.png")
+
+    def shares():
+        data = fetch(simple.ExitSign(Pattern="Image", PatternFile=path, Luminance=100))
+        return cell_array(data, "Luminance") / 100
+
+    write_png(path, numpy.array([pixels], dtype=numpy.uint8))
+    assert numpy.allclose(shares(), expected, atol=1e-9), (shares(), expected)
+    write_png(path, numpy.array([[[257 * v for v in p] for p in pixels]], dtype=numpy.uint16))
+    assert numpy.allclose(shares(), expected, atol=1e-9), (shares(), expected)
+    # Half transparent counts as half as bright, whatever is behind.
+    write_png(path, numpy.array([[(255, 255, 255, 128), (255, 0, 0, 0), (255, 255, 255, 255)]],
+                                dtype=numpy.uint8))
+    assert numpy.allclose(shares(), [128 / 255, 0, 1], atol=1e-9), shares()
 
 
 def check_table(folder):
@@ -106,6 +139,17 @@ def check_table(folder):
     check_close("first plate", areas[:9].sum(), 0.4 * 0.3, 1e-12)
     check_close("second plate", areas[9:].sum(), 0.6 * 0.3, 1e-12)
     assert numpy.allclose(normals[0], [0, 1, 0]) and numpy.allclose(normals[9], [1, 0, 0])
+    # Line ends of any system, and the mark that some editors begin UTF-8 with.
+    with open(path) as file:
+        text = file.read()
+    for change in (text.replace("\n", "\r\n"), text.replace("\n", "\r"), "\ufeff" + text,
+                   text.replace("north", "n\u00f6rdlich")):
+        other = os.path.join(folder, "other.csv")
+        with open(other, "wb") as file:
+            file.write(change.encode("utf-8"))
+        data = fetch(simple.ExitSign(SignTable=other, SignId=10))
+        assert list(cell_array(data, "SignId")) == [3] * 9 + [11] * 5, change
+    assert data.GetCellData().GetAbstractArray("SignName").GetValue(0) == "Stairs, n\u00f6rdlich"
     return path
 
 
@@ -164,11 +208,12 @@ def check_errors(folder, image, table):
     writer.Write()
     sign("huge image", "1000 x 1000 pixels", Pattern="Image", PatternFile=huge)
 
-    sign("missing table", "cannot be opened", SignTable=os.path.join(folder, "nothing.csv"))
+    sign("missing table", "no such file", SignTable=os.path.join(folder, "nothing.csv"))
     for text, part in (("", "holds no sign"),
                        ("cx,cy,cz\n", "holds no sign"),
                        ("cx;cy;cz\n1;2;3\n", "line 1: the column"),
                        ("cx,cy\n1,2\n", "line 1: the column cz is missing"),
+                       ("cx,cy, CX,cz\n1,2,3,4\n", "line 1: there are two columns 'cx'"),
                        ("cx,cy,cz,bars\n1,2,3,9\n\n1,2,3,9.5\n", "line 4: column bars holds '9.5'"),
                        ("cx,cy,cz\n1,2,3\n1,,3\n", "line 3: column cy is blank"),
                        ("cx,cy,cz\n1,2,nan\n", "line 2: column cz holds 'nan'"),
@@ -194,6 +239,16 @@ def check_errors(folder, image, table):
         with open(path, "wb") as file:
             file.write("cx,cy,cz\n1,2,3\n".encode(encoding))
         sign(encoding, "not as UTF-16", SignTable=path)
+    with open(path, "wb") as file:
+        file.write("# sch\u00f6n\ncx,cy,cz,name\n1,2,3,Nord\n4,5,6,S\u00fcd\n".encode("latin-1"))
+    sign("latin-1 in a comment", "line 1: it holds a letter that is not UTF-8", SignTable=path)
+    with open(path, "wb") as file:
+        file.write("cx,cy,cz,name\r1,2,3,Nord\r4,5,6,S\u00fcd\r".encode("latin-1"))
+    sign("latin-1", "line 3: it holds a letter that is not UTF-8", SignTable=path)
+    for row in ('1,2,3,"East', '1,2,3,"Ea""st', '1,2,3,East"'):
+        with open(path, "w") as file:
+            file.write("cx,cy,cz,name\n1,2,3,North\n" + row + "\n4,5,6,South\n")
+        sign(row, "line 3: a double quote is not closed", SignTable=path)
 
     def lamp(what, part, **properties):
         check_error(what, simple.Luminaire(**properties), "vtkLuminaireSource", part)
@@ -209,5 +264,6 @@ check_square()
 check_colour()
 check_lamps()
 with tempfile.TemporaryDirectory() as temporary:
+    check_coloured_image(temporary)
     check_errors(temporary, check_image(temporary), check_table(temporary))
 print("signs and lamps: passed")

@@ -1,5 +1,6 @@
 """What the tests of the FDS reader share: loading the plugin, looking at outputs, counting messages."""
 
+import os
 import re
 import sys
 
@@ -17,6 +18,23 @@ def load_plugin(path):
 
 def reader(path, **properties):
     return FDSSmokeReader(FileName=str(path), **properties)
+
+
+def link(folder, into, names):
+    """Puts files of a run into another folder without copying them."""
+    for name in names:
+        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(into, name))
+
+
+def write_nan_in_room(folder, into):
+    """room_2_2.sf, the extinction of the coarse mesh, with a NaN in cell (3, 4, 5) at -2 s."""
+    with open(os.path.join(folder, "room_2_2.sf"), "rb") as file:
+        data = bytearray(file.read())
+    # That is stored value (4, 5, 6) of 17 x 13 x 13, as each axis begins with a ghost.
+    place = 146 + 12 + 4 + 4 * (4 + 17 * (5 + 13 * 6))
+    data[place : place + 4] = np.float32(np.nan).tobytes()
+    with open(os.path.join(into, "room_2_2.sf"), "wb") as file:
+        file.write(data)
 
 
 class Messages:

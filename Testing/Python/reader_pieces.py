@@ -12,7 +12,7 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import numpy as np
-from reader_common import Messages, equal, load_plugin, reader, true
+from reader_common import Messages, equal, link, load_plugin, reader, true, write_nan_in_room
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -35,8 +35,10 @@ def digest(data):
             for i in range(arrays.GetNumberOfArrays()):
                 sums.update(arrays.GetArrayName(i).encode())
                 sums.update(np.ascontiguousarray(vtk_to_numpy(arrays.GetArray(i))).tobytes())
-        for axis in (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()):
-            sums.update(vtk_to_numpy(axis).tobytes())
+        places = [grid.GetPoints().GetData()] if grid.IsA("vtkPolyData") else [
+            grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()]
+        for array in places:
+            sums.update(vtk_to_numpy(array).tobytes())
         fields = grid.GetFieldData()
         for i in range(fields.GetNumberOfArrays()):
             array = fields.GetAbstractArray(i)
@@ -51,7 +53,7 @@ for case, time in (("Room/fds/room.smv", 20.0), ("Hall/fds/hall.smv", 600.0)):
     # The whole, as filters ask for it.
     whole = reader(path).GetClientSideObject()
     whole.UpdateInformation()
-    for port in (0, 3):
+    for port in (0, 3, 4):
         whole.UpdateTimeStep(time, 0, 1, 0) if port == 0 else whole.Update(port)
         lines += digest(whole.GetOutputDataObject(port))
     # A piece, as a view asks for it: no mesh is read twice.
@@ -66,14 +68,9 @@ for case, time in (("Room/fds/room.smv", 20.0), ("Hall/fds/hall.smv", 600.0)):
 # What one process cannot read is an error for all, and nobody waits for it: a NaN in the second mesh.
 folder = os.path.join(sys.argv[2], "Room", "fds")
 with tempfile.TemporaryDirectory() as temporary:
-    for name in ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"):
-        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(temporary, name))
-    with open(os.path.join(folder, "room_2_2.sf"), "rb") as file:
-        data = bytearray(file.read())
-    place = 146 + 12 + 4 + 4 * (4 + 17 * (5 + 13 * 6))
-    data[place : place + 4] = np.float32(np.nan).tobytes()
-    with open(os.path.join(temporary, "room_2_2.sf"), "wb") as file:
-        file.write(data)
+    names = ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv")
+    link(folder, temporary, names)
+    write_nan_in_room(folder, temporary)
     with Messages(temporary) as messages:
         bad = reader(os.path.join(temporary, "room.smv")).GetClientSideObject()
         bad.UpdateTimeStep(-2.0, 0, 1, 0)

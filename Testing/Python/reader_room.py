@@ -12,7 +12,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import numpy as np
 from paraview import simple
-from reader_common import Devices, Messages, Smoke, Walls, close, equal, load_plugin, reader, true
+from reader_common import (
+    Devices, Messages, Smoke, Walls, close, equal, link, load_plugin, reader, true, write_nan_in_room)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -50,8 +51,7 @@ with tempfile.TemporaryDirectory() as temporary:
             kept.append(line)
     with open(os.path.join(temporary, "room.smv"), "w") as file:
         file.writelines(kept)
-    for name in ("room_1_1.sf", "room_2_1.sf", "room_devc.csv"):
-        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(temporary, name))
+    link(folder, temporary, ("room_1_1.sf", "room_2_1.sf", "room_devc.csv"))
     nodes = Smoke(reader(os.path.join(temporary, "room.smv")), 30.0)
     true("node-centred" in nodes.field("ExtinctionSource"), "nodes are taken without cells")
     true("room_1_1.sf" in nodes.field("ExtinctionSource"), "the nodes' file is named")
@@ -157,8 +157,7 @@ with tempfile.TemporaryDirectory() as temporary:
     body += record(np.zeros(24, np.float32))
     with open(os.path.join(temporary, "room.ge"), "wb") as file:
         file.write(body)
-    for name in ("room_1_2.sf", "room_2_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"):
-        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(temporary, name))
+    link(folder, temporary, ("room_1_2.sf", "room_2_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"))
     solid = reader(os.path.join(temporary, "room.smv"))
     simple.OutputPort(solid, 1).UpdatePipeline(0.0)
     data = solid.GetClientSideObject().GetOutputDataObject(1)
@@ -191,15 +190,8 @@ with tempfile.TemporaryDirectory() as temporary:
 
 # --- a NaN in the gas ---------------------------------------------------------------------------
 with tempfile.TemporaryDirectory() as temporary:
-    for name in ("room.smv", "room_1_2.sf", "room_devc.csv"):
-        os.symlink(os.path.abspath(os.path.join(folder, name)), os.path.join(temporary, name))
-    with open(os.path.join(folder, "room_2_2.sf"), "rb") as file:
-        data = bytearray(file.read())
-    # Cell (3, 4, 5) is stored value (4, 5, 6) of 17 x 13 x 13, as each axis begins with a ghost.
-    place = 146 + 12 + 4 + 4 * (4 + 17 * (5 + 13 * 6))
-    data[place : place + 4] = np.float32(np.nan).tobytes()
-    with open(os.path.join(temporary, "room_2_2.sf"), "wb") as file:
-        file.write(data)
+    link(folder, temporary, ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"))
+    write_nan_in_room(folder, temporary)
     bad = reader(os.path.join(temporary, "room.smv"))
     with Messages(temporary) as messages:
         bad.UpdatePipeline(-2.0)

@@ -236,6 +236,31 @@ true(not any(name.startswith("TEMPERATURE fine x") for name in found), "3-D slic
 room.ReadPlaneSlices = 0
 equal(planes(room, 30.0), {}, "2-D slices turned off")
 
+# --- boundary files: where they are, and the screen that goes --------------------------------------------
+def boundary(source, time):
+    port = simple.OutputPort(source, 4)
+    port.UpdatePipeline(time)
+    data = source.GetClientSideObject().GetOutputDataObject(4)
+    return {data.GetMetaData(i).Get(data.NAME()): data.GetPartition(i, 0)
+            for i in range(data.GetNumberOfPartitionedDataSets())}
+
+
+equal(sorted(boundary(room, 8.0)), ["WALL TEMPERATURE coarse", "WALL TEMPERATURE fine"], "boundary files")
+for time, screen in ((8.0, True), (28.0, False)):
+    walls = boundary(room, time)["WALL TEMPERATURE coarse"]
+    close(np.abs(np.array(walls.GetBounds()) - (3.2, 6.4, 0.0, 2.4, 0.0, 2.4)).max(), 0.0, 1e-5, "their bounds")
+    temperature = vtk_to_numpy(walls.GetPointData().GetArray("WALL TEMPERATURE"))
+    true(19.9 < temperature.min() and 20.01 < temperature.max() < 200, "walls warm up")
+    points = vtk_to_numpy(walls.GetPoints().GetData())
+    # The middle of the screen's top, where there is no other wall.
+    top = np.abs(points - (5.65, 0.6, 1.2)).max(axis=1) < 1e-4
+    equal(bool(top.any()), screen, "the screen at %g s" % time)
+    equal(walls.GetFieldData().GetAbstractArray("Unit").GetValue(0), "C", "unit")
+hot = vtk_to_numpy(boundary(room, 8.0)["WALL TEMPERATURE fine"].GetPointData().GetArray(0))
+close(hot.max(), 39.0747, 1e-3, "hottest wall at 8 s")
+room.ReadBoundary = 0
+equal(boundary(room, 8.0), {}, "boundary files turned off")
+
 # --- between frames --------------------------------------------------------------------------------------
 steps = list(room.TimestepValues)
 early, late = steps[5], steps[6]

@@ -40,6 +40,39 @@ def image(cells, size, extinction=1.0, origin=(0.0, 0.0, 0.0)):
     return data
 
 
+def smoke_over_time(times, extinctions, cells, size):
+    """A source of an image with time steps; its extinction is the same everywhere at each of them [1/m]."""
+    source = simple.ProgrammableSource(OutputDataSetType="vtkImageData")
+    source.ScriptRequestInformation = f"""
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+info = self.GetOutputInformation(0)
+info.Set(Pipeline.TIME_STEPS(), {list(times)}, {len(times)})
+info.Set(Pipeline.TIME_RANGE(), [{times[0]}, {times[-1]}], 2)
+info.Set(Pipeline.WHOLE_EXTENT(), [0, {cells[0]}, 0, {cells[1]}, 0, {cells[2]}], 6)
+"""
+    # ParaView runs the script among the test's own globals, with NumPy's names in place of Python's.
+    source.Script = f"""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+
+def fill_smoke(image, time):
+    times = numpy.array({list(times)})
+    step = int(numpy.argmin(numpy.abs(times - time)))
+    image.SetDimensions({[n + 1 for n in cells]})
+    image.SetSpacing({[s / n for s, n in zip(size, cells)]})
+    extinction = numpy_to_vtk(numpy.full({int(numpy.prod(cells))}, {list(extinctions)}[step]), deep=True)
+    extinction.SetName("Extinction")
+    image.GetCellData().AddArray(extinction)
+    image.GetInformation().Set(image.DATA_TIME_STEP(), times[step])
+
+
+fill_smoke(self.GetImageDataOutput(), self.GetOutputInformation(0).Get(Pipeline.UPDATE_TIME_STEP()))
+"""
+    return source
+
+
 def box(size, reflectance, origin=(0.0, 0.0, 0.0), inwards=True):
     """The six walls of a box as quads, with their fronts inwards or outwards."""
     points = vtkPoints()
@@ -112,6 +145,8 @@ class Messages:
         vtkOutputWindow.SetInstance(self.before)
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
         self.text = self.window.GetOutput()
+        if isinstance(self.text, bytes):  # A message that quotes a damaged file.
+            self.text = self.text.decode("utf-8", "replace")
 
     def count(self, kind, class_name):
         """Messages of a kind, "ERROR" or "Warning", that objects of a class gave."""

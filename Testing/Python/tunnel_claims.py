@@ -1,6 +1,5 @@
-"""The scripts of Data/Tunnel at reduced cost: their numbers against closed forms, converged "
-"values and
-readings, and each claim's verdict against what the whole computation says."""
+"""The scripts of Data/Tunnel at reduced cost: their numbers against closed forms, converged values
+and readings, and each claim's verdict against what the whole computation says."""
 import math
 import os
 import sys
@@ -18,6 +17,7 @@ import ambient_over_colour  # noqa: E402
 import barcode_bends  # noqa: E402
 import burning_hall  # noqa: E402
 import eye_noise  # noqa: E402
+import forward_scattering  # noqa: E402
 import jin  # noqa: E402
 import lamp_near_camera  # noqa: E402
 import lost_near_one  # noqa: E402
@@ -62,8 +62,8 @@ def check_fits():
 
 
 def check_lost():
-    """Smoke that does not scatter: the sign's light falls by Bouguer's law to the observer's "
-    "noise."""
+    """Smoke that does not scatter: the sign's light falls by Bouguer's law to the observer's
+    noise."""
     scattering = dict(scene.SMOKES)
     scene.SMOKES.clear()
     scene.SMOKES["black"] = (0.0, 0.0)
@@ -184,17 +184,45 @@ def check_jin():
 
 def check_hall():
     numbers = burning_hall.compute(times=(600.0,), places=(11, 7))
-    means = numbers["means"][600.0]
-    assert means["fire"] < 0.1 and means["doors"] > 0.5, means
-    assert numbers["darkest"][600.0] < 0.2, numbers["darkest"]
+    assert set(numbers["means"]) == set(burning_hall.LIGHTS)
+    for light, rows in numbers["means"].items():
+        assert rows[600.0]["fire"] < 0.1 and rows[600.0]["doors"] > 0.5, (light, rows)
+        assert numbers["darkest"][light][600.0] < 0.2, numbers["darkest"]
+    # The glow of the smoke round the fire veils, it does not show signs.
+    glow = [numbers["maps"][light][600.0] for light in burning_hall.LIGHTS]
+    assert not numpy.array_equal(*glow) and abs(glow[1] - glow[0])[
+        numbers["regions"]["doors"]].max() < 0.02
     count = {name: int(mask.sum()) for name, mask in numbers["regions"].items()}
     assert count["fire"] == 1 and count["walls"] == 6 and count["doors"] >= 8, count
     yield burning_hall, numbers
 
 
+def check_forward():
+    # The similarity relation keeps the absorption and (1 - g) of the scattering.
+    full = forward_scattering.similar(0.7, 0.0)
+    check_close("extinction", full[0], 0.7 * math.log(10.0), 1e-12)
+    for cosine in (0.5, 0.75):
+        extinction, albedo = forward_scattering.similar(0.7, cosine)
+        check_close("absorption", (1 - albedo) * extinction, (1 - full[1]) * full[0], 1e-12)
+        check_close("scattering", albedo * extinction, (1 - cosine) * full[1] * full[0], 1e-12)
+    numbers = forward_scattering.compute(QUICK, (0.0, 0.8, 1.2, 3.0, 5.0), (0.0, 0.75), ("dark",))
+    curves, lost = numbers["curves"], numbers["lost"]
+    for where in ("wide", "haze"):
+        # Nothing is sent on where g is 0.
+        assert numpy.allclose(curves[0.0, "dark", where], curves[0.0, "dark", "image"], atol=1e-12)
+    low, middle, high = [curves[0.75, "dark", where] for where in ("haze", "wide", "image")]
+    assert all(a <= b + 1e-9 for a, b in zip(low, middle)) and low[1] < middle[1]
+    check_close("clear air", low[0], high[0], 1e-9)
+    # Glow drowns the sign earlier; where all counts as image, it is lost where K' is what K was.
+    assert lost[0.75, "dark", "haze"] < lost[0.75, "dark", "wide"] < lost[0.0, "dark", "wide"], lost
+    rest = 1 - 0.75 * forward_scattering.ALBEDO
+    check_close("image", lost[0.75, "dark", "image"] * rest, lost[0.0, "dark", "image"], 0.15)
+    yield forward_scattering, numbers
+
+
 check_scene()
 check_fits()
-for check in (check_claims, check_eye, check_jin, check_hall):
+for check in (check_claims, check_eye, check_jin, check_forward, check_hall):
     for module, numbers in check():
         verdict = module.judge(numbers)
         assert verdict.number and verdict.why

@@ -1,5 +1,7 @@
-// Writes CAD files with Open CASCADE and measures models.
+// Writes CAD files with Open CASCADE, reads them, and measures models.
 #include "CadSamples.h"
+
+#include "CadFile.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -24,6 +26,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -114,6 +118,31 @@ private:
 };
 
 } // namespace
+
+//------------------------------------------------------------------------------------------------
+CadModel Read(const std::string& fileName, const CadOptions& options)
+{
+  Progress progress;
+  return ReadCadFile(fileName, options, progress);
+}
+
+//------------------------------------------------------------------------------------------------
+std::string Bytes(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+//------------------------------------------------------------------------------------------------
+std::string Replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos)
+  {
+    throw std::logic_error("the sample does not hold: " + from);
+  }
+  return text.replace(at, from.size(), to);
+}
 
 //------------------------------------------------------------------------------------------------
 void WriteStepCylinder(

@@ -9,6 +9,18 @@
 namespace smokevis::test
 {
 
+/// The folder of the kiosk in every format.
+inline const std::string Samples = SMOKEVIS_DATA_DIR "/CAD/";
+
+/// Reads a file to the end.
+CadModel Read(const std::string& fileName, const CadOptions& options = {});
+
+/// The bytes of a file.
+std::string Bytes(const std::string& fileName);
+
+/// A text with the first `from`, which it must have, replaced.
+std::string Replaced(std::string text, const std::string& from, const std::string& to);
+
 /// Writes an upright cylinder of `radius` and `height` [m] on the origin as STEP.
 /// @param unit unit of the file as Open CASCADE calls it: MM, M, INCH
 void WriteStepCylinder(

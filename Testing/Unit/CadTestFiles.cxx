@@ -9,49 +9,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
-#include <random>
 
 namespace smokevis::test
 {
 namespace
 {
-
-const std::string Samples = SMOKEVIS_DATA_DIR "/CAD/";
-
-CadModel Read(const std::string& fileName, const CadOptions& options = {})
-{
-  Progress progress;
-  return ReadCadFile(fileName, options, progress);
-}
-
-std::string Message(const std::string& fileName, const CadOptions& options = {})
-{
-  try
-  {
-    Read(fileName, options);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
-}
-
-std::string Bytes(const std::string& fileName)
-{
-  std::ifstream file(fileName, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to)
-{
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 /// A file of the kiosk and what is special about its format.
 struct Sample
@@ -412,119 +375,6 @@ TEST(CadMesh, FarFromTheOriginIsSaid)
   const CadModel model =
     Read(folder.Write("far.obj", "v 500000 0 0\nv 500001 0 0\nv 500000 1 0\nf 1 2 3\n"));
   EXPECT_THAT(model.Warnings, testing::ElementsAre(testing::HasSubstr("500001 m from the origin")));
-}
-
-//------------------------------------------------------------------------------------------------
-TEST(CadErrors, NameTheFileAndTheRemedy)
-{
-  using testing::AllOf;
-  using testing::HasSubstr;
-  const Folder folder("cad-errors");
-  EXPECT_THAT(Message("/nowhere/a.step"),
-    AllOf(HasSubstr("/nowhere/a.step: there is no such file"), HasSubstr("Check the path")));
-  EXPECT_THAT(Message(folder.Write("a.dwg", "x")), AllOf(HasSubstr(".dwg"), HasSubstr(".ifc")));
-  EXPECT_THAT(Message(folder.Write("plain", "x")), HasSubstr("no extension"));
-  EXPECT_THAT(Message(folder.Write("empty.obj", "")), HasSubstr("the file is empty"));
-  std::filesystem::create_directory(folder.Path("folder.stl"));
-  EXPECT_THAT(Message(folder.Path("folder.stl")), HasSubstr("it is not a file"));
-  for (const char* const name : {"a.step", "a.igs", "a.obj", "a.stl", "a.ply", "a.gltf", "a.glb",
-         "a.dae", "a.fbx", "a.3ds", "a.dxf", "a.ifc"})
-  {
-    const std::string file = folder.Write(name, "This is a letter, not a model.\n");
-    EXPECT_THAT(Message(file), AllOf(HasSubstr(file), HasSubstr("xport"))) << name;
-  }
-  EXPECT_THAT(Message(folder.Write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n")),
-    HasSubstr("xport"));
-  EXPECT_THAT(Message(folder.Write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
-    HasSubstr("all of its 1 triangles are degenerate"));
-  CadOptions options;
-  options.UnitScale = -1.0;
-  EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("UnitScale"));
-  options = {};
-  options.AngularTolerance = 0.0;
-  EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("AngularTolerance"));
-  options = {};
-  options.LinearTolerance = 0.0;
-  EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("LinearTolerance"));
-}
-
-TEST(CadErrors, TruncatedFilesEndInAModelOrAnError)
-{
-  const Folder folder("cad-truncated");
-  for (const char* const name :
-    {"kiosk.step", "kiosk.igs", "kiosk.glb", "kiosk.3ds", "kiosk.stl", "kiosk.ifc"})
-  {
-    const std::string whole = Bytes(Samples + name);
-    for (const double part : {0.1, 0.4, 0.7, 0.95})
-    {
-      const std::string file = folder.Write(
-        name, whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-      try
-      {
-        EXPECT_LE(Read(file).Triangles.size(), 16U);
-      }
-      catch (const Error& error)
-      {
-        EXPECT_THAT(error.what(), testing::HasSubstr(file));
-      }
-    }
-  }
-}
-
-TEST(CadErrors, DamagedFilesEndInAModelOrAnError)
-{
-  // Of one damaged byte in three, the libraries follow an invalid address.
-  const Folder folder("cad-damaged");
-  std::mt19937 random(7);
-  for (const char* const name :
-    {"kiosk.step", "kiosk.igs", "kiosk.ifc", "kiosk_ifc4.ifc", "kiosk.ply", "kiosk.dae"})
-  {
-    const std::string whole = Bytes(Samples + name);
-    for (int i = 0; i < 20; ++i)
-    {
-      std::string damaged = whole;
-      damaged.at(random() % whole.size()) = static_cast<char>(random());
-      damaged.erase(random() % whole.size(), i % 4);
-      const std::string file = folder.Write(name, damaged);
-      try
-      {
-        EXPECT_LE(Read(file).Triangles.size(), 16U);
-      }
-      catch (const Error& error)
-      {
-        EXPECT_THAT(error.what(), testing::HasSubstr(file));
-      }
-    }
-  }
-}
-
-TEST(CadErrors, PlyHeadersAreNotBelieved)
-{
-  const Folder folder("cad-ply");
-  const std::string ply = Bytes(Samples + "kiosk.ply");
-  const auto changed = [&](const std::string& from, const std::string& to)
-  { return Message(folder.Write("a.ply", Replaced(ply, from, to))); };
-  EXPECT_THAT(changed("element face 8", "element face 1000000000"),
-    testing::HasSubstr("claims elements of at least 2e+09 bytes"));
-  EXPECT_THAT(changed("element vertex 16", "element vertex 9000000000000000000"),
-    testing::HasSubstr("claims elements"));
-  EXPECT_THAT(changed("element vertex 16", "element vertex -1"), testing::HasSubstr("line 4"));
-  EXPECT_THAT(changed("property float nx", "propert# float nx"), testing::HasSubstr("line 8"));
-  EXPECT_THAT(changed("property float nx", "property floaty nx"), testing::HasSubstr("line 8"));
-  EXPECT_THAT(changed("end_header\n", "end_heade"), testing::HasSubstr("no keyword"));
-  EXPECT_THAT(changed("format ascii", "format binary"), testing::HasSubstr("'binary'"));
-  EXPECT_THAT(Message(folder.Write("b.ply", ply.substr(0, ply.find("end_header")))),
-    testing::HasSubstr("no end"));
-}
-
-TEST(CadErrors, StopsWhenAsked)
-{
-  for (const char* const name : {"kiosk.step", "kiosk.igs", "kiosk.obj", "kiosk.fbx"})
-  {
-    Progress progress;
-    progress.Stop();
-    EXPECT_THROW(ReadCadFile(Samples + name, {}, progress), Error) << name;
-  }
 }
 
 } // namespace

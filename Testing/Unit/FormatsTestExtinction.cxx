@@ -97,6 +97,42 @@ TEST_F(OneMeshRun, PrefersCellsOfExtinction)
   EXPECT_EQ(source.NearestTime(0.51), 1.0);
 }
 
+TEST_F(OneMeshRun, PrefersCellsOfOtherQuantitiesToNodesOfExtinction)
+{
+  const auto taken = [this](double massExtinction)
+  {
+    return ExtinctionSource(this->Run(), {3.0, massExtinction, SmokeSourceKind::Automatic})
+      .Description();
+  };
+  // Visibility is capped and comes behind.
+  this->AddCells("v.sf", "SOOT VISIBILITY", 3, 3);
+  this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {4, 5, 6});
+  EXPECT_THAT(taken(0.0), HasSubstr("n.sf"));
+  // Without Km in the index density may be off by any factor; with one it is exact.
+  this->AddCells("d.sf", "SOOT DENSITY", 1e-4F, 2e-4F);
+  EXPECT_THAT(taken(0.0), HasSubstr("n.sf"));
+  EXPECT_THAT(taken(8000.0), HasSubstr("d.sf"));
+  index_.Text("SMOKF3D     1   8000.0\n gone.s3d\n SOOT DENSITY\n rho\n kg/m3\n");
+  EXPECT_THAT(taken(0.0), HasSubstr("d.sf"));
+  EXPECT_THAT(this->Read(), ElementsAre(testing::FloatEq(0.8F), testing::FloatEq(1.6F)));
+  this->AddCells("o.sf", "SOOT OPTICAL DENSITY", 1, 2);
+  EXPECT_THAT(taken(0.0), HasSubstr("o.sf"));
+  this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 0.5, 0.75);
+  EXPECT_THAT(taken(0.0), HasSubstr("k.sf"));
+}
+
+TEST_F(OneMeshRun, AMassFractionIsAsExactAsItsDensity)
+{
+  index_.Text("SMOKF3D     1   8000.0\n gone.s3d\n SOOT DENSITY\n rho\n kg/m3\n");
+  this->AddNodes("n.sf", "SOOT OPTICAL DENSITY", {1, 1, 1});
+  this->AddCells("y.sf", "SOOT MASS FRACTION", 1e-4F, 1e-4F);
+  this->AddNodes("rn.sf", "DENSITY", {1, 1, 1});
+  EXPECT_THAT(ExtinctionSource(this->Run(), {}).Description(), HasSubstr("n.sf"));
+  EXPECT_THAT(this->Read(), ElementsAre(2.3F, 2.3F));
+  this->AddCells("r.sf", "DENSITY", 1, 1);
+  EXPECT_THAT(this->Read(), ElementsAre(testing::FloatEq(0.8F), testing::FloatEq(0.8F)));
+}
+
 TEST_F(OneMeshRun, AveragesTheNodesOfACell)
 {
   this->AddNodes("n.sf", "SOOT EXTINCTION COEFFICIENT", {1, 2, 4});

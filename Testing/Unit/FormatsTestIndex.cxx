@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -181,11 +183,34 @@ TEST(SmvFile, NamesWhatIsWrong)
     HasSubstr("index range outside"));
   test::Index mesh = OneMesh();
   EXPECT_THAT(with(mesh.Slice(true, 2, {0, 4, 0, 3, 0, 2}, "a.sf", "X")), HasSubstr("mesh 2 of 1"));
+  test::Index plot = OneMesh();
+  EXPECT_THAT(with(plot.Text("PL3D 1.0 33333333333333333333\n a.q\n")), HasSubstr("mesh -1 of 1"));
   test::Index surface;
   surface.Mesh("m", {1, 1, 1}, {0, 0, 0}, {1, 1, 1}).Obstruction({0, 1, 0, 1, 0, 1}, 17);
   EXPECT_THAT(with(surface), HasSubstr("surface number 17 of 6"));
-  test::Index event = OneMesh();
-  EXPECT_THAT(with(event.Text("HIDE_OBST 1\n 9 1.0\n\n")), HasSubstr("lacks"));
+}
+
+TEST(SmvFile, ChangesOfWhatIsNotThereAreLeftOut)
+{
+  test::Folder folder("changes");
+  const auto warnings = [&](const std::string& changes)
+  {
+    const SmvFile index(folder.Write("a.smv", OneMesh().Text(changes).Bytes()));
+    EXPECT_FALSE(IsOn(index.Meshes.at(0).Obstructions.at(1).Events, 15.0)) << changes;
+    return index.Warnings;
+  };
+  const std::string good = "HIDE_OBST 1\n 2 15.0\n";
+  EXPECT_THAT(warnings(good), testing::IsEmpty());
+  const std::string text = OneMesh().Text("").Bytes();
+  const auto line = std::to_string(std::count(text.begin(), text.end(), '\n') + 2);
+  EXPECT_THAT(warnings("HIDE_OBST 1\n 9 1.0\n" + good),
+    ElementsAre(testing::AllOf(HasSubstr("a.smv, line " + line + ": "),
+      HasSubstr("names obstruction 9 of mesh 'room one', which has 2."))));
+  EXPECT_THAT(warnings(good + "SHOW_OBST 1\n 0 1.0\nOPEN_VENT 1\n 2 1.0\nCLOSE_VENT 7\n 1 1.0\n"),
+    ElementsAre(testing::AllOf(HasSubstr("obstruction 0"), HasSubstr("and 2 more"))));
+  EXPECT_THAT(warnings("CLOSE_VENT 7\n 1 1.0\n" + good), ElementsAre(HasSubstr("mesh 7 of 1")));
+  EXPECT_THAT(
+    warnings("HIDE_OBST 1\n 99999999999 1.0\n" + good), ElementsAre(HasSubstr("which has 2")));
 }
 
 TEST(SmvFile, AnyCutOrFlippedByteIsReadOrRefused)

@@ -135,6 +135,7 @@ TEST(ResponseCurve, SaysWhatIsWrongAndWhere)
   EXPECT_NE(MessageFor("exposure,pixel_value\n0,9\n1,8\n").find("falls"), std::string::npos);
   EXPECT_NE(MessageFor("exposure,pixel_value\n0,9\n").find("fewer than two"), std::string::npos);
   EXPECT_NE(MessageFor("exposure,pixel_value\nnan,9\n").find("not a number"), std::string::npos);
+  EXPECT_NE(MessageFor("exposure,pixel_value\r0,0\r1,300\r").find("line 3"), std::string::npos);
 }
 
 TEST(Photograph, IsExposedByTheStandards)
@@ -149,6 +150,24 @@ TEST(Photograph, IsExposedByTheStandards)
   EXPECT_NEAR(FocalPlaneExposure(100.0, settings, 0.01), 0.65 * 100.0 * 0.01 / 4.0, 1e-15);
   settings.Magnification = 1.0;
   EXPECT_NEAR(FocalPlaneExposure(100.0, settings, 0.01), 0.65 * 100.0 * 0.01 / 16.0, 1e-15);
+}
+
+TEST(Photograph, HasTheIlluminanceOfTheStandard)
+{
+  // ISO 12232: pi/4 T v cos^4(a) L f^2 / (N i)^2 with T = 0.9, v = 0.98 and a = 10 degrees, and the
+  // image at a distance i behind the lens. The standard rounds the factors' 0.6516 to 0.65.
+  const double factor = 0.25 * 3.14159265358979 * 0.9 * 0.98 * std::pow(std::cos(0.174532925), 4.0);
+  for (const double focus : {0.25, 0.6, 4.0, 1e6})
+  {
+    const ThinLens lens = ThinLens::Focused(0.05, focus);
+    ExposureSettings settings;
+    settings.FNumber = 5.6;
+    settings.Magnification = lens.Magnification();
+    const double stop = 5.6 * lens.ImageDistance / 0.05;
+    EXPECT_NEAR(SensorIlluminance(80.0, settings) / (factor * 80.0 / (stop * stop)), 1.0, 3e-3);
+    EXPECT_NEAR(
+      FocalPlaneExposure(80.0, settings, 0.02), 0.02 * SensorIlluminance(80.0, settings), 1e-15);
+  }
 }
 
 TEST(Photograph, KeepsAMeteredGreyInTheMiddle)

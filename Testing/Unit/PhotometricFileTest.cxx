@@ -182,10 +182,35 @@ TEST(PhotometricFile, ErrorsNameTheLine)
   holds(with("0 90", "0 80"), "line 7: the vertical angles go from 0.000000 to 80");
   holds(with("0 90", "90 0"), "line 7: the vertical angle 0.000000 does not follow 90");
   holds(with("\r\n0,", "\r\n45,"), "line 8: the horizontal angles go from 45");
+  // Planes that are missing: 180 of four, or all behind 270 of three.
+  for (const std::vector<double>& planes :
+    {std::vector<double>{0, 90, 270}, {0, 45, 200}, {0, 270}, {0, 90, 180, 300}, {90, 180, 360}})
+  {
+    holds(Message(File({0, 90}, planes)), "line 8: the horizontal angles go from");
+  }
   holds(with("100 190", "100 -190"), "line 9: an intensity is negative");
   holds(with("100 190", "100 190 5"), "line 9: there is more in the file");
   holds(with("100 190", "0 0"), "all intensities are 0");
   holds(with("100 190", "100"), "line 9: the file ends before the intensity");
+}
+
+// Line ends of any system are line ends.
+TEST(PhotometricFile, LineEnds)
+{
+  const std::string windows = File({0, 30, 90}, {0, 90});
+  for (const std::string end : {"\n", "\r", "\n\r\n"})
+  {
+    std::string text;
+    for (std::size_t i = 0; i < windows.size(); ++i)
+    {
+      text += windows[i] == '\n' ? end : windows[i] == '\r' ? "" : std::string(1, windows[i]);
+    }
+    EXPECT_EQ(Message(text), "no error");
+    EXPECT_EQ(Parse(text).Candela, Parse(windows).Candela);
+    text.replace(text.find("1 1000"), 1, "x");
+    const std::string line = end == "\n\r\n" ? "line 9" : "line 5";
+    EXPECT_NE(Message(text).find(line + ": 'x' stands for"), std::string::npos) << Message(text);
+  }
 }
 
 // A file that breaks off anywhere is an error, never a crash, unless nothing but its end's blanks

@@ -1,0 +1,324 @@
+#include "vtkJinVisibility.h"
+
+#include "Errors.h"
+#include "KeptOutput.h"
+#include "LightFieldInput.h"
+#include "PipelineProgress.h"
+#include "Ranks.h"
+#include "SightLine.h"
+#include "SliceSampler.h"
+#include "WholeInput.h"
+#include "vtkFloorMapOfVisibility.h"
+
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+vtkStandardNewMacro(vtkJinVisibility);
+
+struct vtkJinVisibility::Internals
+{
+  smokevis::KeptOutput Kept;
+};
+
+namespace
+{
+
+using smokevis::Error;
+using smokevis::SightLine;
+using smokevis::Vec3;
+
+constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
+constexpr int Categories = vtkJinVisibility::NOT_KNOWN + 1;
+
+template <class Array>
+Array* AddArray(
+  vtkImageData* image, const char* name, const std::vector<std::string>& components = {})
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(std::max(1, static_cast<int>(components.size())));
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  for (std::size_t i = 0; i < components.size(); ++i)
+  {
+    array->SetComponentName(static_cast<vtkIdType>(i), components[i].c_str());
+  }
+  image->GetPointData()->AddArray(array);
+  return array;
+}
+
+/// The category of a place, from what the map says of it and whether the practice sees a sign.
+int Compare(int status, bool inView, bool seen)
+{
+  if (status == vtkFloorMapOfVisibility::INSIDE_SOLID)
+  {
+    return vtkJinVisibility::INSIDE_SOLID;
+  }
+  if (!inView && status == vtkFloorMapOfVisibility::NO_SIGN_IN_VIEW)
+  {
+    return vtkJinVisibility::NO_SIGN_IN_VIEW;
+  }
+  if (status == vtkFloorMapOfVisibility::SEEN)
+  {
+    return seen ? vtkJinVisibility::SEEN_BY_BOTH : vtkJinVisibility::MAP_ONLY;
+  }
+  return seen ? vtkJinVisibility::PRACTICE_ONLY : vtkJinVisibility::SEEN_BY_NEITHER;
+}
+
+void AddCounts(vtkImageData* image, const char* name)
+{
+  vtkDataArray* const categories = image->GetPointData()->GetArray(name);
+  std::array<int, Categories> counts{};
+  for (vtkIdType i = 0; i < categories->GetNumberOfTuples(); ++i)
+  {
+    ++counts[static_cast<std::size_t>(categories->GetComponent(i, 0))];
+  }
+  vtkNew<vtkIntArray> array;
+  array->SetName((std::string(name) + "Count").c_str());
+  for (const int count : counts)
+  {
+    array->InsertNextValue(count);
+  }
+  image->GetFieldData()->AddArray(array);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkJinVisibility::vtkJinVisibility() : Implementation(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+vtkJinVisibility::~vtkJinVisibility() = default;
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* mtime)
+{
+  *mtime = this->Implementation->Kept.PipelineMTime(this->GetMTime());
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(
+    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkImageData" : "vtkCompositeDataSet");
+  if (port == 2)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* const map = inputVector[1]->GetInformationObject(0);
+  if (map->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    outputVector->GetInformationObject(0)->Set(
+      Pipeline::WHOLE_EXTENT(), map->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  smokevis::HandlePieces(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    smokevis::RequestWholeInputs(inputVector[port]);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkJinVisibility::CheckProperties() const
+{
+  const auto positive = [](double value, const char* name, const char* remedy)
+  {
+    if (!(value > 0.0 && std::isfinite(value)))
+    {
+      throw Error(name, "it is not positive", remedy);
+    }
+  };
+  positive(this->VisibilityFactor, "VisibilityFactor", "Give 3 for signs that reflect, 8 for lit");
+  positive(this->InherentContrast, "InherentContrast", "Give 1 for a black plate with lit parts");
+  positive(this->LiminalContrast, "LiminalContrast", "Give 0.02, after Koschmieder");
+  positive(this->MaximumVisibility, "MaximumVisibility", "Give metres, 30 as FDS does");
+  if (!(this->SliceTolerance >= 0.0 && std::isfinite(this->SliceTolerance)))
+  {
+    throw Error("SliceTolerance", "it is negative", "Give metres from 0");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkJinVisibility::Compute(
+  vtkDataObject* lightField, vtkImageData* map, vtkDataObject* slices, vtkImageData* output)
+{
+  this->CheckProperties();
+  vtkDataArray* const status = map ? map->GetPointData()->GetArray("Status") : nullptr;
+  if (!status)
+  {
+    throw Error("FloorMap", "it has no point array Status",
+      "Connect a FloorMapOfVisibility, or a file that it was saved to");
+  }
+  smokevis::SceneBlocks blocks;
+  const smokevis::Scene scene(smokevis::DescribeScene(lightField, blocks));
+  const std::map<int, std::string> given = smokevis::ReadSignNames(blocks.Emitters);
+  const std::vector<smokevis::Sign>& signs = scene.Lights().Signs();
+  if (signs.empty())
+  {
+    throw Error("LightField", "it holds no sign",
+      "Give emitters with a SignId from 0, such as the source ExitSign makes");
+  }
+  std::vector<std::string> names;
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("SignIds");
+  for (const smokevis::Sign& sign : signs)
+  {
+    const auto found = given.find(sign.Id);
+    names.push_back(found == given.end() || found->second.empty()
+                      ? "Sign " + std::to_string(sign.Id)
+                      : found->second);
+    ids->InsertNextValue(sign.Id);
+  }
+
+  output->CopyStructure(map);
+  auto* const inView = AddArray<vtkIntArray>(output, "InView", names);
+  auto* const distance = AddArray<vtkFloatArray>(output, "SightDistance", names);
+  auto* const extinction = AddArray<vtkFloatArray>(output, "MeanExtinction", names);
+  auto* const visibility = AddArray<vtkFloatArray>(output, "JinVisibility", names);
+  auto* const depth = AddArray<vtkFloatArray>(output, "OpticalDepth");
+  auto* const best = AddArray<vtkIntArray>(output, "JinSign");
+  auto* const contrast = AddArray<vtkFloatArray>(output, "BeerLambertContrast");
+  auto* const local = AddArray<vtkFloatArray>(output, "FDSVisibility");
+  auto* const jin = AddArray<vtkIntArray>(output, "JinDifference");
+  auto* const beer = AddArray<vtkIntArray>(output, "BeerLambertDifference");
+  auto* const fds = AddArray<vtkIntArray>(output, "FDSDifference");
+  const std::vector<float> sampled =
+    smokevis::SampleSlices(slices, "VISIBILITY", map, this->SliceTolerance);
+
+  const auto place = [&](vtkIdType i)
+  {
+    Vec3 eye;
+    map->GetPoint(i, &eye.x);
+    SightLine most;
+    int mostSign = -1;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < signs.size(); ++s)
+    {
+      const SightLine line = smokevis::LookAtSign(scene, signs[s], eye);
+      const auto component = static_cast<int>(s);
+      const double farthest =
+        std::min(line.JinVisibility(this->VisibilityFactor), this->MaximumVisibility);
+      inView->SetTypedComponent(i, component, line.InView ? 1 : 0);
+      distance->SetTypedComponent(i, component, static_cast<float>(line.Distance));
+      extinction->SetTypedComponent(i, component, static_cast<float>(line.MeanExtinction()));
+      visibility->SetTypedComponent(
+        i, component, line.InView ? static_cast<float>(farthest) : 0.0F);
+      if (line.InView)
+      {
+        nearest = std::min(nearest, line.Distance);
+        if (mostSign < 0 || line.OpticalDepth < most.OpticalDepth)
+        {
+          most = line;
+          mostSign = signs[s].Id;
+        }
+      }
+    }
+    const bool any = mostSign >= 0;
+    const double arriving = any ? this->InherentContrast * std::exp(-most.OpticalDepth) : 0.0;
+    const auto state = static_cast<int>(status->GetComponent(i, 0));
+    depth->SetValue(i, any ? static_cast<float>(most.OpticalDepth) : NotANumber);
+    best->SetValue(i, mostSign);
+    contrast->SetValue(i, static_cast<float>(arriving));
+    local->SetValue(i, sampled[i]);
+    jin->SetValue(i, Compare(state, any, most.SeenAfterJin(this->VisibilityFactor)));
+    beer->SetValue(i, Compare(state, any, any && arriving >= this->LiminalContrast));
+    // FDS writes nothing beyond its cap: there it does not limit what is seen.
+    const bool reaches = sampled[i] >= this->MaximumVisibility || nearest <= sampled[i];
+    fds->SetValue(i, std::isnan(sampled[i]) ? NOT_KNOWN : Compare(state, any, any && reaches));
+  };
+  const vtkIdType places = map->GetNumberOfPoints();
+  const vtkIdType chunk = std::max<vtkIdType>(64, places / 50);
+  smokevis::RunWithProgress(this, 0.1, 0.95,
+    [&](smokevis::Progress& progress)
+    {
+      for (vtkIdType begin = 0; begin < places && !progress.ShouldStop(); begin += chunk)
+      {
+        tbb::parallel_for(begin, std::min(places, begin + chunk), place);
+        progress.Report(static_cast<double>(begin) / static_cast<double>(places));
+      }
+    });
+
+  output->GetPointData()->SetActiveScalars("JinDifference");
+  output->GetFieldData()->AddArray(ids);
+  smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddFieldNumber(*output, "VisibilityFactor", {this->VisibilityFactor});
+  smokevis::AddFieldTexts(*output, "DifferenceNames",
+    {"seen by both", "seen by the practice only", "seen by the map only", "seen by neither",
+      "no sign in view", "inside a solid", "not known"});
+  for (const char* const name : {"JinDifference", "BeerLambertDifference", "FDSDifference"})
+  {
+    AddCounts(output, name);
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkJinVisibility::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* const output = vtkImageData::GetData(outputVector);
+  try
+  {
+    this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
+      vtkDataObject::GetData(inputVector[2]), output);
+    this->Implementation->Kept.Keep(outputVector, 0);
+    smokevis::LeaveToFirstPiece(outputVector);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    if (this->GetAbortOutput())
+    {
+      this->Implementation->Kept.Restore(this, outputVector, 0);
+      return 1;
+    }
+    this->Implementation->Kept.Clear();
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkJinVisibility::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "VisibilityFactor: " << this->VisibilityFactor << "\n";
+  os << indent << "InherentContrast: " << this->InherentContrast << "\n";
+  os << indent << "LiminalContrast: " << this->LiminalContrast << "\n";
+  os << indent << "MaximumVisibility: " << this->MaximumVisibility << "\n";
+  os << indent << "SliceTolerance: " << this->SliceTolerance << "\n";
+}

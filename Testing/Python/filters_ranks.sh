@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Runs filters_ranks.py with 1, 2 and 3 processes and against a server of 2, and compares what they get.
+# Usage: filters_ranks.sh MPIEXEC PVBATCH PLUGIN DATA_FOLDER WORK_FOLDER
+set -euo pipefail
+mpiexec=$1 pvbatch=$2 plugin=$3 data=$4 work=$5
+script=$(dirname "$0")/filters_ranks.py
+programs=$(dirname "$pvbatch")
+options=(--oversubscribe)
+if [ "$(id -u)" -eq 0 ]; then
+  options+=(--allow-run-as-root)
+fi
+for processes in 1 2 3; do
+  timeout 150 "$mpiexec" "${options[@]}" -np "$processes" "$pvbatch" --symmetric \
+    --force-offscreen-rendering "$script" "$plugin" "$data" "$work/ranks$processes.txt"
+  cmp "$work/ranks1.txt" "$work/ranks$processes.txt"
+done
+
+port=$((20000 + $$ % 20000))
+timeout 200 "$mpiexec" "${options[@]}" -np 2 "$programs/pvserver" --force-offscreen-rendering \
+  --server-port="$port" >"$work/server.txt" 2>&1 &
+server=$!
+for _ in $(seq 100); do
+  grep -q "Accepting connection" "$work/server.txt" && break
+  sleep 0.2
+done
+timeout 150 "$programs/pvpython" --force-offscreen-rendering "$script" "$plugin" "$data" \
+  "$work/server_arrays.txt" "$port"
+wait "$server" || true
+cmp <(grep -v '^light\|^time' "$work/ranks1.txt") "$work/server_arrays.txt"
+echo "The same bits with 1, 2 and 3 processes and from a server of 2."

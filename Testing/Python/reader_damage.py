@@ -1,0 +1,151 @@
+"""FDSSmokeReader on runs with damage and on properties without sense: pvpython reader_damage.py PLUGIN DATA_FOLDER
+
+What can be shown is shown, with a warning that says what is missing; else there is one error.
+"""
+
+import math
+import os
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from paraview import simple
+from reader_common import Messages, Smoke, close, equal, link, load_plugin, reader, true
+
+load_plugin(sys.argv[1])
+folder = os.path.join(sys.argv[2], "Room", "fds")
+index = os.path.join(folder, "room.smv")
+# Extinction of cells, and the flames: HRRPUV (2) and their temperature (3) in bytes.
+SMOKE = ("room_1_2.sf", "room_2_2.sf")
+HEAT = ("room_1_2.s3d", "room_2_2.s3d")
+GLOW = ("room_1_3.s3d", "room_2_3.s3d")
+
+
+def messages_of(action, where):
+    with Messages(where) as messages:
+        action()
+    return messages
+
+
+# --- an index that cannot be read is complained of once, however often the pipeline asks ---------------
+with tempfile.TemporaryDirectory() as temporary:
+    path = os.path.join(temporary, "bad.smv")
+    with open(path, "w") as file:
+        file.write("GRID a\n 2 0 2\n")
+    with Messages(temporary) as said:
+        bad = reader(path)
+        for _ in range(4):
+            bad.UpdatePipelineInformation()
+    equal(said.text.count("ERROR"), 1, "errors of a bad index")
+    true("bad.smv, line 2: a mesh needs three positive cell counts" in said.text, "it names the line")
+
+    def ask():
+        bad.UpdatePipelineInformation()
+        for port in range(4):
+            simple.OutputPort(bad, port).UpdatePipeline(1.0)
+
+    equal(messages_of(ask, temporary).count("ERROR"), 0, "nothing new to say")
+    equal(bad.GetClientSideObject().GetOutputDataObject(0).GetNumberOfPartitionedDataSets(), 0, "no data")
+    with Messages(temporary) as said:
+        bad.FileName = os.path.join(temporary, "none.smv")
+        ask()
+    equal(said.count("ERROR"), 1, "another file, another error")
+    bad.FileName = index
+    equal(messages_of(ask, temporary).count("ERROR"), 0, "a good index after a bad one")
+    close(Smoke(bad, 30.0).field("Time"), 30.0, 0.0, "it is read")
+
+    # --- numbers that are none --------------------------------------------------------------------
+    for name in (
+        "TransparencyThreshold", "MassExtinctionCoefficient", "VisibilityFactor", "Albedo", "LuminousEfficacy"
+    ):
+        for value in (math.nan, math.inf, -math.inf):
+            strange = reader(index)
+            with Messages(temporary) as said:
+                setattr(strange, name, value)
+                strange.UpdatePipeline(30.0)
+            equal(said.count("ERROR"), 1, "errors of %s = %g" % (name, value))
+            true(name + ": it is %g" % value in said.text, "the error names " + name)
+            setattr(strange, name, 0.5)
+            close(Smoke(strange, 30.0).field("Time"), 30.0, 0.0, "a number again")
+
+# --- flames that end before the smoke, and flames whose file is gone -------------------------------------
+for model, cut, kept, last in (("Heat Release", HEAT, GLOW, "0.0008"), ("Temperature", GLOW, HEAT, "10.0111")):
+    for size in ("inside a frame", "between frames"):
+        with tempfile.TemporaryDirectory() as temporary:
+            link(folder, temporary, ("room.smv",) + SMOKE + kept + (cut[1],))
+            with open(os.path.join(folder, cut[0]), "rb") as file:
+                whole = file.read()
+            # Frames: a time (12 bytes), sizes (16), and bytes with their length in front and behind.
+            end = 40
+            for _ in range(2):
+                end += 28 + int.from_bytes(whole[end + 28 : end + 32], "little") + 8
+            with open(os.path.join(temporary, cut[0]), "wb") as file:
+                file.write(whole[: end + (20 if size == "inside a frame" else 0)])
+            burning = reader(os.path.join(temporary, "room.smv"), FlameModel=model)
+            said = messages_of(lambda: burning.UpdatePipeline(30.0), temporary)
+            true(
+                cut[0] + ": " in said.text
+                and "has no frame near 30 s: the flames of " + last in said.text,
+                "%s cut %s: the file and the time of what is shown" % (cut[0], size),
+            )
+            equal(cut[0] + ": frame 3 at byte" in said.text, size == "inside a frame", "damage is named")
+            equal(said.count("ERROR"), 0, "cut flames are no error")
+            early = messages_of(lambda: burning.UpdatePipeline(2.0), temporary)
+            true("has no frame near" not in early.text, "nothing is missing early on")
+    with tempfile.TemporaryDirectory() as temporary:
+        link(folder, temporary, ("room.smv",) + SMOKE + kept + (cut[1],))
+        link(folder, temporary, ("room_1_8p01.q", "room_1_28p01.q", "room_2_8p01.q", "room_2_28p01.q"))
+        burning = reader(os.path.join(temporary, "room.smv"), FlameModel=model)
+        said = messages_of(lambda: burning.UpdatePipeline(28.0), temporary)
+        true(cut[0] + ": the 8-bit file of" in said.text, "a missing file of flames is named")
+        equal(said.count("ERROR"), 0, "missing flames are no error")
+
+# --- boundary files and 2-D slices that end early ------------------------------------------------------------
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, ("room.smv", "room_devc.csv") + SMOKE + HEAT)
+    for name in ("room_1_1.bf", "room_1_9.sf"):
+        with open(os.path.join(folder, name), "rb") as file:
+            whole = file.read()
+        with open(os.path.join(temporary, name), "wb") as file:
+            file.write(whole[:-10])
+    ending = reader(os.path.join(temporary, "room.smv"))
+    # ParaView updates all outputs.
+    said = messages_of(lambda: ending.UpdatePipeline(30.0), temporary)
+    equal((said.count("ERROR"), said.count("Warning")), (0, 2), "messages of what is cut")
+    for port, name in ((3, "room_1_9.sf"), (4, "room_1_1.bf")):
+        true(name + ": frame " in said.text and "is cut short; the other frames are used" in said.text, name)
+        simple.OutputPort(ending, port).UpdatePipeline(30.0)
+        data = ending.GetClientSideObject().GetOutputDataObject(port)
+        shown = [data.GetPartition(i, 0) for i in range(data.GetNumberOfPartitionedDataSets())]
+        times = [block.GetFieldData().GetArray("Time").GetValue(0) for block in shown if block]
+        equal(len(times), 1, "blocks whose files are there")
+        true(15 < times[0] < 29, "the time of the last whole frame, %g s" % times[0])
+    again = messages_of(lambda: ending.UpdatePipeline(8.0), temporary)
+    equal(again.count("Warning"), 0, "it is said once")
+
+# --- heat release beside black bodies ----------------------------------------------------------------------
+heat = Smoke(reader(index), 20.0).field("FlameHeatRelease")
+glowing = Smoke(reader(index, FlameModel="Temperature"), 20.0)
+close(glowing.field("FlameHeatRelease"), heat, 0.0, "heat release, whatever the model of light")
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, ("room.smv",) + SMOKE + GLOW)
+    alone = Smoke(reader(os.path.join(temporary, "room.smv"), FlameModel="Temperature"), 20.0)
+    true(not alone.data.GetFieldData().HasArray("FlameHeatRelease"), "no heat release without HRRPUV")
+    close(alone.field("FlameLumens"), glowing.field("FlameLumens"), 0.0, "the light is the same")
+
+# --- a change of what is not there ---------------------------------------------------------------------------
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, SMOKE + HEAT + ("room_devc.csv",))
+    with open(index) as file:
+        text = file.read()
+    with open(os.path.join(temporary, "room.smv"), "w") as file:
+        file.write(text + "HIDE_OBST     2\n   999     12.0\n")
+    line = text.count("\n") + 2
+    changed = reader(os.path.join(temporary, "room.smv"))
+    said = messages_of(lambda: changed.UpdatePipeline(16.0), temporary)
+    equal((said.count("ERROR"), said.count("Warning")), (0, 1), "messages of a strange change")
+    true("room.smv, line %d: a change names obstruction 999 of mesh 'coarse'" % line in said.text, "its line")
+    equal(Smoke(changed, 16.0).meshes[1].solid.sum(), 0, "the screen still goes")
+
+print("reader_damage: all as expected")

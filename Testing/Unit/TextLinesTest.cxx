@@ -1,0 +1,71 @@
+// Text files as people save them.
+#include "TextLines.h"
+#include "Errors.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace smokevis
+{
+namespace
+{
+
+std::string Written(const std::string& bytes)
+{
+  const std::string name = testing::TempDir() + "/lines.txt";
+  std::ofstream(name, std::ios::binary) << bytes;
+  return name;
+}
+
+std::string MessageFor(const std::string& bytes)
+{
+  try
+  {
+    ReadTableLines("the table", Written(bytes), "Give one");
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "no error";
+}
+
+} // namespace
+
+TEST(TextLines, EndsLinesAsAnySystemDoes)
+{
+  const std::vector<std::string> expected = {"a", "", "b c"};
+  EXPECT_EQ(SplitLines("a\n\nb c"), expected);
+  EXPECT_EQ(SplitLines("a\r\n\r\nb c\r\n"), expected);
+  EXPECT_EQ(SplitLines("a\r\rb c\r"), expected);
+  EXPECT_EQ(SplitLines("a\r\n\nb c\r"), expected);
+  EXPECT_TRUE(SplitLines("").empty());
+}
+
+TEST(TextLines, NumbersTheLinesThatCount)
+{
+  const std::vector<TextLine> lines =
+    ReadTableLines("it", Written("\xEF\xBB\xBFone\n# two\n \t\n  four \xC3\xB6 \n"), "");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].Number, 1);
+  EXPECT_EQ(lines[0].Text, "one");
+  EXPECT_EQ(lines[1].Number, 4);
+  EXPECT_EQ(lines[1].Text, "four \xC3\xB6");
+}
+
+TEST(TextLines, RefusesWhatIsNoText)
+{
+  EXPECT_EQ(MessageFor("a\nb\n"), "no error");
+  EXPECT_EQ(MessageFor(std::string("\xFF\xFE"
+                                   "a\0",
+              4)),
+    "the table: it is not plain text. Save it as UTF-8, not as UTF-16.");
+  EXPECT_NE(MessageFor(std::string("a\0b", 3)).find("not plain text"), std::string::npos);
+  EXPECT_NE(
+    MessageFor("a\n\xFC\n").find("the table, line 2: it holds a letter"), std::string::npos);
+  EXPECT_THROW(ReadTableLines("it", "no such file", "Give one"), Error);
+  EXPECT_THROW(ReadTableLines("it", testing::TempDir(), "Give one"), Error);
+}
+
+} // namespace smokevis
