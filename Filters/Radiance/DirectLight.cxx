@@ -375,7 +375,12 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
     size = std::max(size, glm::length(corner - centre));
   }
   const double distance = root.Distance(centre);
-  if (glm::dot(centre - root.Centre, root.Normal) + size < -root.Radius)
+  // What does not reach before the light gets nothing from it: so do the light's own cells, and the
+  // wall that it is on.
+  const auto height = [&root](const Vec3& corner)
+  { return glm::dot(corner - root.Centre, root.Normal); };
+  const double highest = std::max({height(corners[0]), height(corners[1]), height(corners[2])});
+  if (highest <= this->Scene_.Shapes().Tolerance() - root.Depth)
   {
     return;
   }
