@@ -38,6 +38,8 @@ struct Shapes
 {
   std::vector<Vec3> Corner, Normal;
   std::vector<std::uint32_t> Cell;
+  /// Indices in the mesh.
+  std::vector<std::size_t> Triangles;
   SceneHandle Tree;
 };
 
@@ -123,7 +125,8 @@ struct Geometry::Implementation
 
   void Add(Shapes& shapes, const SurfaceMesh& mesh) const
   {
-    const std::vector<std::size_t> triangles = UsefulTriangles(mesh);
+    shapes.Triangles = UsefulTriangles(mesh);
+    const std::vector<std::size_t>& triangles = shapes.Triangles;
     if (triangles.empty())
     {
       return;
@@ -357,6 +360,16 @@ double Geometry::Tolerance() const
   return this->Implementation_->Tolerance;
 }
 
+const std::vector<std::size_t>& Geometry::SurfaceTriangles() const
+{
+  return this->Implementation_->Surfaces.Triangles;
+}
+
+const std::vector<std::size_t>& Geometry::EmitterTriangles() const
+{
+  return this->Implementation_->Emitters.Triangles;
+}
+
 std::uint32_t Geometry::Cell(const Hit& hit) const
 {
   const Implementation& self = *this->Implementation_;
@@ -409,7 +422,14 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     const auto behind = [begin](const Hit& hit) { return hit.Distance >= begin; };
     nextSurface = std::find_if(nextSurface, surfaces.end(), behind);
     nextPlate = std::find_if(nextPlate, plates.end(), behind);
-    const Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
+    // Of surfaces that lie in one another the first of the model counts, whichever way rounding
+    // falls.
+    Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
+    for (auto other = nextSurface;
+         other != surfaces.end() && other->Distance <= nextSurface->Distance + gap; ++other)
+    {
+      surface = other->Triangle < surface.Triangle ? *other : surface;
+    }
     const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
     if (!surface.Found() && !plate.Found())
     {
