@@ -13,7 +13,7 @@ smokevisibility_packages=(
   libeigen3-dev libxt-dev nlohmann-json3-dev protobuf-compiler libprotobuf-dev libfmt-dev zlib1g-dev
   libembree-dev libglm-dev libopenexr-dev python3-imath libtbb-dev libgtest-dev libgmock-dev
   libassimp-dev libocct-data-exchange-dev
-  xvfb xauth)
+  xvfb xauth imagemagick)
 
 smokevisibility_say()
 {

@@ -5,6 +5,7 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkCommunicator.h>
+#include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiProcessController.h>

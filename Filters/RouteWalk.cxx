@@ -167,7 +167,8 @@ void RouteWalk::Look(const RouteFrame& before, const RouteFrame& after, const Vi
 }
 
 //------------------------------------------------------------------------------
-void RouteWalk::Advance(const RouteFrame& before, const RouteFrame& after, bool last)
+void RouteWalk::Advance(
+  const RouteFrame& before, const RouteFrame& after, bool last, Progress& progress)
 {
   const std::size_t signs = before.Light->TheScene().Lights().Signs().size();
   if (signs == 0 || after.Light->TheScene().Lights().Signs().size() != signs)
@@ -187,8 +188,14 @@ void RouteWalk::Advance(const RouteFrame& before, const RouteFrame& after, bool 
     walker.PerceivedContrast.resize(places * signs);
     this->Walk(i, before, after, last, visits);
   }
-  tbb::parallel_for(
-    std::size_t{0}, visits.size(), [&](std::size_t i) { this->Look(before, after, visits[i]); });
+  tbb::parallel_for(std::size_t{0}, visits.size(),
+    [&](std::size_t i)
+    {
+      if (!progress.ShouldStop())
+      {
+        this->Look(before, after, visits[i]);
+      }
+    });
 }
 
 } // namespace smokevis

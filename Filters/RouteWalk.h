@@ -61,7 +61,7 @@ public:
   bool Done() const;
   /// Lets the walkers go on until the second light field's time.
   /// @param last whether there is no later one: then walkers go on to the end of their routes
-  void Advance(const RouteFrame& before, const RouteFrame& after, bool last);
+  void Advance(const RouteFrame& before, const RouteFrame& after, bool last, Progress& progress);
   const std::vector<RouteWalker>& Walkers() const { return this->Walkers_; }
 
 private:

@@ -15,9 +15,9 @@ enum class SpeedLaw
   /// not less than a tenth of it, as FDS+Evac does (T. Korhonen, Technical Reference and User's
   /// Guide, eq. 11).
   FrantzichNilsson = 1,
-  /// K. Fridolf, D. Nilsson, H. Frantzich, E. Ronchi, Tunn. Undergr. Space Technol. (2019), eq. 7:
-  /// 0.34 m/s less for each metre that the visibility A/K falls short of 3 m, and not less than 0.2
-  /// m/s.
+  /// K. Fridolf, E. Ronchi, D. Nilsson, H. Frantzich, Tunnelling and Underground Space Technology
+  /// 90 (2019) 28-41, eq. 7: 0.34 m/s less for each metre that the visibility A/K falls short of 3
+  /// m, and not less than 0.2 m/s.
   Fridolf = 2
 };
 

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "FloorMapFile.h"
+#include "Ranks.h"
 #include "StepWalk.h"
 
 #include <vtkErrorCode.h>
@@ -45,38 +46,59 @@ void vtkFloorMapWriter::WriteSteps(vtkInformationVector* input)
     steps.push_back(known ? info->Get(vtkDataObject::DATA_TIME_STEP()) : 0.0);
   }
   steps = smokevis::ChooseSteps(steps, this->TimeRange, this->Stride);
+  // All processes make the maps together; the first one writes them.
+  const smokevis::Ranks ranks;
+  const bool writes = ranks.Rank() == 0;
   std::optional<smokevis::FloorMapNetcdf> file;
   std::optional<smokevis::FloorMapTable> table;
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  const auto write = [&](double time)
   {
-    if (!steady)
-    {
-      smokevis::UpdateToTime(input, steps[i]);
-    }
     if (!file)
     {
       file.emplace(this->FileName, map);
     }
-    file->Add(steps[i], map);
+    file->Add(time, map);
     if (this->Table)
     {
       if (!table)
       {
         table.emplace(std::filesystem::path(this->FileName).replace_extension(".csv"), map);
       }
-      table->Add(steps[i], map);
+      table->Add(time, map);
     }
-    this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
-    if (this->CheckAbort())
-    {
-      throw smokevis::Error("floor map writer", "it was stopped", "No file was written");
-    }
-  }
-  file->Finish();
-  if (table)
+  };
+  for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    table->Finish();
+    if (!steady)
+    {
+      smokevis::UpdateToTime(input, steps[i]);
+    }
+    ranks.Together(this,
+      [&]
+      {
+        if (writes)
+        {
+          write(steps[i]);
+        }
+        this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
+        if (this->CheckAbort())
+        {
+          throw smokevis::Error("floor map writer", "it was stopped", "No file was written");
+        }
+      });
   }
+  ranks.Together(this,
+    [&]
+    {
+      if (file)
+      {
+        file->Finish();
+      }
+      if (table)
+      {
+        table->Finish();
+      }
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -13,7 +13,8 @@
  * - the attribute `contrast_threshold`.
  * Times are the simulation's seconds; as the conventions want a date, 2000-01-01 stands for 0 s.
  * With Table a table of the quantities of the signs goes into a file of the same name that ends in
- * .csv, a row a time, place and sign. Where something fails no file is left.
+ * .csv, a row a time, place and sign. Where something fails no file is left. In a parallel run the
+ * first process writes.
  */
 #ifndef vtkFloorMapWriter_h
 #define vtkFloorMapWriter_h

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "PipelineProgress.h"
 #include "Ranks.h"
 #include "RouteInput.h"
 #include "RouteWalk.h"
@@ -135,6 +136,12 @@ void AddSummary(vtkPolyData* output, const std::vector<RouteWalker>& walkers, do
     lossPlace->InsertNextTuple(&summary.FirstLossPlace.x);
     least->InsertNextValue(summary.LeastVisibility);
   }
+}
+
+/// Progress after so many time steps: nobody knows how many a walk takes, but it never falls.
+double ShareOf(std::size_t steps, bool last)
+{
+  return last ? 1.0 : 1.0 - 1.0 / (1.0 + static_cast<double>(steps));
 }
 
 void AddLines(vtkPolyData* output, const std::vector<RouteWalker>& walkers)
@@ -278,10 +285,17 @@ void vtkRouteVisibility::Compute(
     after = {time, &inputs[current].Get(vtkDataObject::GetData(lightField))};
     used.push_back(time);
   };
+  double done = 0.0;
+  const auto advance = [&](const smokevis::RouteFrame& from, bool last)
+  {
+    smokevis::RunWithProgress(this, done, ShareOf(used.size(), last),
+      [&](smokevis::Progress& progress) { walk.Advance(from, after, last, progress); });
+    done = ShareOf(used.size(), last);
+  };
   if (steps.empty())
   {
     load(this->StartTime);
-    walk.Advance(after, after, true);
+    advance(after, true);
   }
   else
   {
@@ -290,19 +304,13 @@ void vtkRouteVisibility::Compute(
     load(*step);
     if (step + 1 == steps.end())
     {
-      walk.Advance(after, after, true);
+      advance(after, true);
     }
     while (!walk.Done())
     {
       ++step;
       load(*step);
-      walk.Advance(before, after, step + 1 == steps.end());
-      this->UpdateProgress(
-        static_cast<double>(step - steps.begin()) / static_cast<double>(steps.size()));
-      if (this->CheckAbort())
-      {
-        throw Error("route visibility", "the work was stopped");
-      }
+      advance(before, step + 1 == steps.end());
     }
   }
 

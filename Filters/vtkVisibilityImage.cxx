@@ -11,9 +11,11 @@
 #include "Photograph.h"
 #include "PipelineProgress.h"
 #include "Ranks.h"
+#include "SceneBlocks.h"
 #include "ThinLens.h"
 #include "WholeInput.h"
 
+#include <vtkCellData.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -23,6 +25,8 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -36,6 +40,7 @@ struct vtkVisibilityImage::Internals
 {
   smokevis::LightFieldInput Input;
   smokevis::KeptOutput Kept;
+  vtkNew<vtkStringArray> SignList;
   /// Of filter and input when the image could not be made, 0: it could.
   vtkMTimeType FailedFilter = 0;
   vtkMTimeType FailedInput = 0;
@@ -57,6 +62,32 @@ constexpr std::size_t NoSign = static_cast<std::size_t>(-1);
 
 using smokevis::Error;
 using smokevis::Vec3;
+
+/// Entry of the list of signs that leaves the choice to TargetSign.
+const char* const ById = "(by id)";
+
+/// Ids and names of the signs of a light field.
+std::map<int, std::string> SignNames(vtkDataObject* lightField)
+{
+  std::map<int, std::string> names;
+  vtkDataObject* const emitters = smokevis::FindBlock(lightField, "Emitters");
+  for (const smokevis::SurfaceBlock& block : smokevis::CollectSurfaces(emitters, "Emitters"))
+  {
+    vtkCellData* const cells = block.Mesh->GetCellData();
+    vtkDataArray* const ids = cells->GetArray("SignId");
+    auto* const texts = vtkStringArray::SafeDownCast(cells->GetAbstractArray("SignName"));
+    for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
+    {
+      const int id = static_cast<int>(ids->GetComponent(i, 0));
+      if (id >= 0)
+      {
+        const std::string name = texts ? std::string(texts->GetValue(i)) : std::string();
+        names.emplace(id, name.empty() ? "Sign " + std::to_string(id) : name);
+      }
+    }
+  }
+  return names;
+}
 
 Vec3 Vector(const double* values)
 {
@@ -119,12 +150,49 @@ int LargestSign(const std::vector<int>& signIds)
 vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
+  this->SetTargetSignName(ById);
 }
 
 //------------------------------------------------------------------------------
 vtkVisibilityImage::~vtkVisibilityImage()
 {
   this->SetResponseFile(nullptr);
+  this->SetTargetSignName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkStringArray* vtkVisibilityImage::GetSignList()
+{
+  vtkStringArray* const list = this->Implementation->SignList;
+  list->Initialize();
+  list->InsertNextValue(ById);
+  for (const auto& [id, name] : SignNames(this->GetInputDataObject(0, 0)))
+  {
+    list->InsertNextValue(std::to_string(id) + ": " + name);
+  }
+  return list;
+}
+
+//------------------------------------------------------------------------------
+int vtkVisibilityImage::Target(vtkDataObject* input) const
+{
+  const std::string wanted = this->TargetSignName ? this->TargetSignName : "";
+  if (wanted.empty() || wanted == ById)
+  {
+    return this->TargetSign;
+  }
+  std::string known;
+  for (const auto& [id, name] : SignNames(input))
+  {
+    const std::string entry = std::to_string(id) + ": " + name;
+    if (wanted == entry || wanted == name)
+    {
+      return id;
+    }
+    known += (known.empty() ? "'" : ", '") + entry + "'";
+  }
+  throw Error("TargetSignName", "there is no sign '" + wanted + "'",
+    "The signs of this light field: " + (known.empty() ? "none" : known));
 }
 
 //------------------------------------------------------------------------------
@@ -246,14 +314,15 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     throw Error("CameraPosition", "it lies inside a solid", "Move the camera into the open");
   }
 
+  const int target = this->Target(input);
   smokevis::Camera camera;
   std::size_t sign = NoSign;
-  if (this->TargetSign >= 0)
+  if (target >= 0)
   {
-    sign = FindSign(view, this->TargetSign);
+    sign = FindSign(view, target);
     if (sign == NoSign)
     {
-      throw Error("TargetSign", "there is no sign " + std::to_string(this->TargetSign),
+      throw Error("TargetSign", "there is no sign " + std::to_string(target),
         "The signs of this light field: " + this->Implementation->Input.SignIds());
     }
     camera = smokevis::Camera::FramePlate(eye, view.TheScene().Lights().Signs()[sign].Corners,
@@ -298,13 +367,13 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   {
     const int id = image.SignIds[i];
     ids->SetValue(i, id);
-    mask->SetValue(i, id >= 0 && (this->TargetSign < 0 || id == this->TargetSign) ? 1 : 0);
+    mask->SetValue(i, id >= 0 && (target < 0 || id == target) ? 1 : 0);
   }
   output->GetPointData()->AddArray(mask);
   output->GetPointData()->AddArray(ids);
   output->GetPointData()->SetActiveScalars("Luminance");
 
-  const int measured = this->TargetSign >= 0 ? this->TargetSign : LargestSign(image.SignIds);
+  const int measured = target >= 0 ? target : LargestSign(image.SignIds);
   smokevis::SignMeasurement result;
   if (measured >= 0)
   {
@@ -318,10 +387,9 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
       observer, state, glare ? &*glare : nullptr, view.TheScene().Lights().Signs()[sign]);
     result = smokevis::MeasureSign(view, sign, eye, observer);
   }
-  if (this->TargetSign >= 0 && !result.InView)
+  if (target >= 0 && !result.InView)
   {
-    vtkWarningMacro(
-      "Sign " << this->TargetSign << " is not in view from here: it faces away or is hidden.");
+    vtkWarningMacro("Sign " << target << " is not in view from here: it faces away or is hidden.");
   }
   const auto number = [&](const char* name, std::initializer_list<double> values)
   { smokevis::AddFieldNumber(*output, name, values); };
@@ -421,6 +489,8 @@ void vtkVisibilityImage::PrintSelf(ostream& os, vtkIndent indent)
   { os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n"; };
   vector("CameraPosition", this->CameraPosition);
   os << indent << "TargetSign: " << this->TargetSign << "\n";
+  os << indent << "TargetSignName: " << (this->TargetSignName ? this->TargetSignName : "(none)")
+     << "\n";
   vector("CameraFocalPoint", this->CameraFocalPoint);
   vector("CameraViewUp", this->CameraViewUp);
   os << indent << "FocalLength: " << this->FocalLength << "\n";

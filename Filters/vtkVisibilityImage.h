@@ -44,6 +44,8 @@
 
 #include <memory>
 
+class vtkStringArray;
+
 class SMOKEFILTERS_EXPORT vtkVisibilityImage : public vtkImageAlgorithm
 {
 public:
@@ -67,6 +69,21 @@ public:
   vtkSetMacro(TargetSign, int);
   vtkGetMacro(TargetSign, int);
   ///@}
+
+  ///@{
+  /**
+   * The target sign by an entry of GetSignList, "id: name", or by its name alone; "(by id)" or
+   * nothing: TargetSign decides. Default: "(by id)".
+   */
+  vtkSetStringMacro(TargetSignName);
+  vtkGetStringMacro(TargetSignName);
+  ///@}
+
+  /**
+   * What TargetSignName may be for the light field as it was last computed: "(by id)", then
+   * "id: name" for each of its signs.
+   */
+  vtkStringArray* GetSignList();
 
   ///@{
   /**
@@ -286,10 +303,13 @@ private:
 
   void CheckProperties() const;
   void UseModel(double sensor[2], int size[2]) const;
+  /// Id of the target sign, or -1. Throws Error where there is no sign of the name.
+  int Target(vtkDataObject* input) const;
   void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};
   int TargetSign = -1;
+  char* TargetSignName = nullptr;
   double CameraFocalPoint[3] = {1.0, 0.0, 1.7};
   double CameraViewUp[3] = {0.0, 0.0, 1.0};
   double FocalLength = 50.0;

@@ -44,13 +44,20 @@ vtkDataArray* NeededArray(vtkImageData* map, const char* name)
   return array;
 }
 
+/// Adds an array; with the array of a map, one that has a component a sign and the map's names.
 template <class Array, class Values>
-void AddArray(vtkImageData* image, const char* name, const Values& values)
+void AddArray(
+  vtkImageData* image, const char* name, const Values& values, vtkDataArray* signs = nullptr)
 {
   vtkNew<Array> array;
   array->SetName(name);
+  array->SetNumberOfComponents(signs ? signs->GetNumberOfComponents() : 1);
   array->SetNumberOfTuples(image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  if (signs)
+  {
+    array->CopyComponentNames(signs);
+  }
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
   {
     array->SetValue(i, static_cast<typename Array::ValueType>(values[i]));
   }
@@ -71,6 +78,29 @@ smokevis::VisibilityFrame Frame(vtkImageData* map, double time)
     frame.InsideSolid.push_back(
       static_cast<int>(status->GetComponent(i, 0)) == vtkFloorMapOfVisibility::INSIDE_SOLID);
   }
+  return frame;
+}
+
+/// The same for each sign: a place of the frame is a place and a sign of the map.
+smokevis::VisibilityFrame SignFrame(vtkImageData* map, double time)
+{
+  vtkDataArray* const contrast = map->GetPointData()->GetArray("PerceivedContrast");
+  vtkDataArray* const shown = map->GetPointData()->GetArray("VisibleFraction");
+  smokevis::VisibilityFrame frame;
+  frame.Time = time;
+  for (vtkIdType i = 0; contrast && i < contrast->GetNumberOfTuples(); ++i)
+  {
+    for (int sign = 0; sign < contrast->GetNumberOfComponents(); ++sign)
+    {
+      const auto value = static_cast<float>(contrast->GetComponent(i, sign));
+      const bool inView = shown && sign < shown->GetNumberOfComponents()
+                            ? shown->GetComponent(i, sign) > 0.0
+                            : value > 0.0F;
+      frame.Visibility.push_back(value);
+      frame.BestSign.push_back(inView ? sign : -1);
+    }
+  }
+  frame.InsideSolid.resize(frame.Visibility.size());
   return frame;
 }
 
@@ -144,10 +174,14 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
   const double threshold = this->Threshold(map);
   const vtkIdType places = map->GetNumberOfPoints();
   smokevis::VisibilityHistory history(places, threshold);
+  vtkDataArray* const contrast = map->GetPointData()->GetArray("PerceivedContrast");
+  smokevis::VisibilityHistory signHistory(
+    contrast ? static_cast<std::size_t>(contrast->GetNumberOfValues()) : 0, threshold);
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     smokevis::UpdateToTime(input, steps[i]);
     history.Add(Frame(map, steps[i]));
+    signHistory.Add(SignFrame(map, steps[i]));
     this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
     if (this->CheckAbort())
     {
@@ -165,6 +199,11 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
   AddArray<vtkIntArray>(output, "LastSign", summary.LastSign);
   AddArray<vtkFloatArray>(output, "LeastVisibility", summary.LeastVisibility);
   AddArray<vtkIntArray>(output, "Outcome", summary.Outcome);
+  if (vtkDataArray* const signs = map->GetPointData()->GetArray("PerceivedContrast"))
+  {
+    AddArray<vtkDoubleArray>(
+      output, "SignAvailableTime", signHistory.Finish().AvailableTime, signs);
+  }
   output->GetPointData()->SetActiveScalars("AvailableTime");
   for (const char* const name : {"SignIds", "SignNames"})
   {

@@ -21,6 +21,8 @@
  * - `Outcome`, int: KEPT, LOST (visible at some time, not at the end), INTERRUPTED (visible at the
  *   end, not at some time before), NEVER_VISIBLE (in view, but below the threshold),
  *   NO_SIGN_IN_VIEW, INSIDE_SOLID.
+ * - `SignAvailableTime`, double [s], a component a sign, named after it: AvailableTime of that sign
+ *   alone; NaN where it is not in view at any time.
  * The times are NaN where no sign is in view at any time.
  *
  * Field data: the map's `SignIds` and `SignNames`; `TimeRange` [s], the first and the last step

@@ -5,7 +5,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
-from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.colors import ListedColormap, LogNorm  # noqa: E402
 from matplotlib.patches import Patch, Rectangle  # noqa: E402
 from paraview import simple  # noqa: E402
 
@@ -113,6 +113,93 @@ def variants_figure(name, variants):
     legend(figure, picture, grid, shrink=0.9)
     figure.suptitle("The same smoke in different light: x and y in m, "
                     "hatched where no sign is visible")
+    figure.savefig(name, dpi=110)
+    plt.close(figure)
+
+
+def mark_hall(axes):
+    """Walls, fire and axes of a picture that fills the hall."""
+    xmin, xmax, ymin, ymax = scene.HALL[:4]
+    x0, x1, y0, y1 = scene.FIRE
+    axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="black", edgecolor="white", linewidth=0.5))
+    axes.add_patch(Rectangle((xmin, ymin), xmax - xmin, ymax - ymin, fill=False, linewidth=1))
+    axes.set_xticks(range(0, 56, 10))
+    axes.set_yticks(range(0, 36, 10))
+
+
+def time_figure(name, available, outcome, end):
+    """When the places lose all signs; hatched where they do not until the end."""
+    xmin, xmax, ymin, ymax = scene.HALL[:4]
+    figure, axes = plt.subplots(figsize=(9.5, 6.0), constrained_layout=True)
+    grid = numpy.ma.masked_invalid(available.reshape(PLACES[1], PLACES[0]))
+    picture = axes.imshow(numpy.ma.masked_where(outcome.reshape(grid.shape) == 0, grid), origin="lower",
+                          extent=(xmin, xmax, ymin, ymax), cmap="inferno", vmax=end, interpolation="nearest")
+    width, depth = (xmax - xmin) / PLACES[0], (ymax - ymin) / PLACES[1]
+    for row in range(PLACES[1]):
+        for column in range(PLACES[0]):
+            place = row * PLACES[0] + column
+            if outcome[place] == 0:
+                axes.add_patch(Rectangle((xmin + column * width, ymin + row * depth), width, depth,
+                                         facecolor="white", edgecolor=SIGN_COLOUR, linewidth=0, hatch="//"))
+            elif numpy.isfinite(available[place]):
+                late = available[place] > 0.5 * (grid.min() + end)
+                axes.text(xmin + (column + 0.5) * width, ymin + (row + 0.5) * depth, f"{available[place]:.0f}",
+                          ha="center", va="center", fontsize=8, color="black" if late else "white")
+    mark_hall(axes)
+    axes.set_title("Dark hall: time at which no sign is visible any more [s]", fontsize=11)
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    figure.colorbar(picture, ax=axes, shrink=0.85, label="available time by visibility [s]")
+    axes.legend(handles=[Patch(facecolor="white", edgecolor=SIGN_COLOUR, hatch="//", linewidth=0,
+                               label=f"a sign is visible until the end of the run, {end:g} s"),
+                         Patch(facecolor="black", label="fire")],
+                frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.11), ncol=2)
+    figure.savefig(name, dpi=110, bbox_inches="tight")
+    plt.close(figure)
+
+
+# Categories of JinVisibility.
+DIFFERENCES = [("seen by both", "#d9d9d9"), ("seen by Jin's law only", "#c04040"),
+               ("seen by the map only", "#3b6ea5"), ("seen by neither", "#404040"),
+               ("no sign in view", "#ffffff"), ("inside a solid", "#806040")]
+
+
+def difference_figure(name, pictures, when):
+    """Where the map and Jin's law agree, and where not."""
+    columns = 2
+    rows = -(-len(pictures) // columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(10, 3.7 * rows), constrained_layout=True, sharex=True,
+                                sharey=True, squeeze=False)
+    colours = ListedColormap([colour for _, colour in DIFFERENCES])
+    for axes, (title, categories) in zip(grid.flat, pictures.items()):
+        axes.imshow(categories.reshape(PLACES[1], PLACES[0]), origin="lower", extent=scene.HALL[:4], cmap=colours,
+                    vmin=-0.5, vmax=len(DIFFERENCES) - 0.5, interpolation="nearest")
+        mark_hall(axes)
+        axes.set_title(title, fontsize=10)
+    used = sorted(set(numpy.concatenate(list(pictures.values()))))
+    figure.legend(handles=[Patch(facecolor=DIFFERENCES[i][1], edgecolor="black", linewidth=0.5,
+                                 label=DIFFERENCES[i][0]) for i in used],
+                  loc="lower center", bbox_to_anchor=(0.5, -0.05), ncol=len(used), frameon=False)
+    figure.suptitle(f"Is a sign visible? The map against V = C/K, {when}; x and y in m", fontsize=11)
+    figure.savefig(name, dpi=110, bbox_inches="tight")
+    plt.close(figure)
+
+
+def route_figure(name, walks):
+    """Contrast of the best sign and walking speed along a way, a line a start."""
+    figure, (contrast, speed) = plt.subplots(2, 1, figsize=(8, 6), constrained_layout=True, sharex=True)
+    for start, (distance, visibility, walking) in walks.items():
+        contrast.plot(distance, visibility, label=f"from {start:g} s on")
+        speed.step(distance, walking, where="post")
+    contrast.axhline(THRESHOLD, color="#c04040", linewidth=1)
+    contrast.text(1.0, THRESHOLD - 0.06, "point of disappearance", color="#c04040", fontsize=8,
+                  transform=contrast.get_yaxis_transform(), ha="right")
+    contrast.set_ylabel("perceived contrast of the best sign")
+    contrast.set_ylim(0.0, 1.0)
+    contrast.legend(frameon=False)
+    speed.set_ylabel("walking speed [m/s]")
+    speed.set_xlabel("way from the middle of the hall to the door [m]")
+    speed.set_ylim(0.0, 1.3)
     figure.savefig(name, dpi=110)
     plt.close(figure)
 

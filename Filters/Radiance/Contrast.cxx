@@ -18,8 +18,6 @@ namespace
 constexpr double BlocksAcross = 8.0;
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
 constexpr int MostPixels = 512;
-/// Gauss-Legendre nodes on (0, 1).
-constexpr std::array<double, 3> GaussNodes = {0.11270166537925831, 0.5, 0.88729833462074169};
 
 /// Angle that the segment between two points spans at the eye [rad].
 double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
@@ -455,58 +453,6 @@ SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
 {
   return SignLook(view, sign, eye, observer).Measure();
-}
-
-double PerceivedContrastBound(
-  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
-{
-  const EmitterSet& lights = view.TheScene().Lights();
-  const Sign& plate = lights.Signs()[sign];
-  const int bands = view.TheScene().Bands();
-  double luminance = 0.0;
-  for (const std::size_t cell : plate.Cells)
-  {
-    if (glm::dot(eye - lights.CellCentre(cell), lights.CellNormal(cell)) <= 0.0)
-    {
-      continue;
-    }
-    Spectrum value{};
-    for (int band = 0; band < bands; ++band)
-    {
-      const std::size_t side =
-        view.Field().PatchIndex(band, view.TheScene().SurfacePatches() + cell, 0);
-      value[band] = lights.Cells()[cell].Luminance[band] +
-                    lights.Cells()[cell].Reflectance[band] / 3.141592653589793 *
-                      std::max(0.0, view.Field().DirectIlluminance[side] +
-                                      Mean(view.Field().MultipleIlluminance[side]));
-    }
-    luminance = std::max(luminance, Luminance(value, bands));
-  }
-  double least = 1e300;
-  for (const double u : GaussNodes)
-  {
-    for (const double v : GaussNodes)
-    {
-      const Vec3 to = OnPlate(plate, u, v) - eye;
-      const double distance = glm::length(to);
-      least =
-        std::min(least, view.TheScene().Smoke().OpticalDepth(eye, to / distance, 0.0, distance));
-    }
-  }
-  double scale = view.TheScene().ExtinctionScale(0);
-  for (int band = 1; band < bands; ++band)
-  {
-    scale = std::min(scale, view.TheScene().ExtinctionScale(band));
-  }
-  luminance *= std::exp(-scale * least);
-  // Luminances between 0 and M, a share p of them at M, deviate most from their mean for the p that
-  // maximises sqrt(p (1 - p)) M / (p M + dark): p = 1 / (M / dark + 2).
-  if (luminance == 0.0)
-  {
-    return 0.0;
-  }
-  const double ratio = luminance / observer.DarkLuminance;
-  return 0.5 * ratio / std::sqrt(ratio + 1.0);
 }
 
 } // namespace smokevis

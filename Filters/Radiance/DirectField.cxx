@@ -1,6 +1,6 @@
 #include "DirectField.h"
 
-#include "LightField.h"
+#include "GaussNodes.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -21,6 +21,11 @@ namespace
 constexpr double NearEdges = 4.01;
 /// Closer than this, a cell's mean is not found from a few points.
 constexpr double CloseEdges = 2.01;
+/// Optical depth across a cell below which its light is flat enough, that of the pieces that
+/// thicker ones are cut into, and most pieces of one.
+constexpr double FlatDepth = 0.41;
+constexpr double PieceDepth = 0.5;
+constexpr int MostPieces = 8;
 /// Sharpest law of emission of lights whose fluence is kept on lattices.
 constexpr double SmoothestLaw = 2.0;
 /// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
@@ -38,12 +43,9 @@ struct GaussRule
   int Count;
   std::array<double, 4> Nodes, Weights;
 };
-/// Gauss-Legendre on (0, 1).
 constexpr GaussRule OnePoint = {1, {0.5}, {1.0}};
-constexpr GaussRule TwoPoints = {2, {0.21132486540518712, 0.78867513459481288}, {0.5, 0.5}};
-constexpr GaussRule FourPoints = {4,
-  {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
-  {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}};
+constexpr GaussRule TwoPoints = {2, {Nodes2[0], Nodes2[1]}, {0.5, 0.5}};
+constexpr GaussRule FourPoints = {4, Nodes4, Weights4};
 
 const GaussRule& RuleFor(double angle, double depth)
 {
@@ -88,7 +90,9 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 {
   ends[0] = begin;
   const double first = glm::dot(origin + begin * direction - light.Centre, light.Normal);
-  const double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  // A ray that ends on the plate may seem to end behind it.
+  last = std::abs(last) < 1e-6 * first ? 0.0 : last;
   const double close = glm::length(origin + end * direction - light.Centre);
   if (last >= 0.0 && last < 0.3 * first && close < 1.5 * light.Radius)
   {
@@ -116,8 +120,8 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 } // namespace
 
 DirectField::DirectField(const Scene& scene, const LightField& field)
-    : Scene_(scene), Direct_(scene), Open_(scene), Cells_(field.Cells), Means_(field.DirectFluence),
-      Shapes_(field.Bands)
+    : Scene_(scene), Field_(field), Direct_(scene), Open_(scene), Cells_(field.Cells),
+      Means_(field.DirectFluence), Shapes_(field.Bands)
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
   {
@@ -136,6 +140,7 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
     return std::equal(first.begin(), first.end(), second.begin(), second.end(),
       [](const NearLight& one, const NearLight& two) { return one.Light == two.Light; });
   };
+  this->FindVarying();
   for (int band = 0; band < field.Bands; ++band)
   {
     const float* all = field.DirectFluence.data() + field.CellIndex(band, 0);
@@ -250,8 +255,7 @@ Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
   {
     for (int point = 0; point < 8; ++point)
     {
-      const Vec3 share(TwoPoints.Nodes[point & 1], TwoPoints.Nodes[point >> 1 & 1],
-        TwoPoints.Nodes[point >> 2 & 1]);
+      const Vec3 share(Nodes2[point & 1], Nodes2[point >> 1 & 1], Nodes2[point >> 2 & 1]);
       const Spectrum value =
         this->Direct_.Fluence(light.Light, centre + (share - 0.5) * size, light.Clear);
       for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
@@ -285,6 +289,43 @@ Spectrum DirectField::OthersFluence(std::int64_t cell, const NearCell& near) con
     }
   }
   return sum;
+}
+
+void DirectField::FindVarying()
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  this->Varies_.resize(this->Shapes_.size() * this->Cells_);
+  for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+  {
+    for (std::size_t i = 0; i < this->Cells_; ++i)
+    {
+      const auto cell = static_cast<std::int64_t>(i);
+      const Vec3 size = smoke.CellSize(cell);
+      const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
+                           this->Scene_.ExtinctionScale(static_cast<int>(band));
+      const std::size_t index = band * this->Cells_ + i;
+      // In the thickest cells pieces would not follow the light; means keep the balance of power.
+      this->Varies_[index] = this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
+                             depth < MostPieces * PieceDepth &&
+                             (depth > FlatDepth || this->Close(cell));
+    }
+  }
+}
+
+int DirectField::Pieces(std::int64_t cell, double length, int band) const
+{
+  // Thick pieces are cut: the source is flat in each.
+  const double depth =
+    this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(band) * length;
+  return std::clamp(static_cast<int>(std::ceil(depth / PieceDepth)), 1, MostPieces);
+}
+
+double DirectField::PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
+  double begin, double end, int band) const
+{
+  const double smooth = this->Smooth(cell, origin + 0.5 * (begin + end) * direction, band);
+  return this->Near(cell) ? smooth + this->NearMean(cell, origin, direction, begin, end, band)
+                          : smooth;
 }
 
 double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,

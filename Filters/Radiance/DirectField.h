@@ -4,6 +4,7 @@
 
 #include "CellShape.h"
 #include "DirectLight.h"
+#include "LightField.h"
 #include "NearField.h"
 #include "OpenFaces.h"
 
@@ -13,7 +14,6 @@
 namespace smokevis
 {
 
-struct LightField;
 class Scene;
 
 /// Of every cell, a light within a few cell edges counts as near: its fluence is too steep to be
@@ -21,7 +21,7 @@ class Scene;
 class DirectField
 {
 public:
-  /// @param field holds the direct fluence of all cells
+  /// @param field holds the direct fluence of all cells; must outlive this
   DirectField(const Scene& scene, const LightField& field);
 
   const OpenFaces& Open() const { return this->Open_; }
@@ -33,14 +33,29 @@ public:
     return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
                                       : 0.0;
   }
+  /// Calls visit(length, fluence) for the parts that a piece of a ray inside a cell is cut into,
+  /// with the mean direct fluence of each [lx]; the fluence is flat enough in each.
+  template <class Visit>
+  void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, int band, Visit&& visit) const
+  {
+    const std::size_t index = band * this->Cells_ + cell;
+    if (this->Varies_.empty() || !this->Varies_[index])
+    {
+      visit(end - begin, this->Field_.DirectFluence[index]);
+      return;
+    }
+    const int parts = this->Pieces(cell, end - begin, band);
+    for (int part = 0; part < parts; ++part)
+    {
+      const double from = begin + (end - begin) * part / parts;
+      const double to = begin + (end - begin) * (part + 1) / parts;
+      visit(to - from, this->PieceMean(cell, origin, direction, from, to, band));
+    }
+  }
   bool Near(std::int64_t cell) const
   {
     return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
-  }
-  /// Whether a light is so close to a cell that its fluence varies much inside it.
-  bool Close(std::int64_t cell) const
-  {
-    return this->Near(cell) && this->NearCells_[this->NearIndex_[cell]].Close;
   }
   /// Mean, along a piece of a ray inside a cell, of the fluence of the lights near to it [lx].
   double NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
@@ -66,24 +81,37 @@ private:
     bool Close = false;
   };
 
+  /// Whether a light is so close to a cell that its fluence varies much inside it.
+  bool Close(std::int64_t cell) const
+  {
+    return this->Near(cell) && this->NearCells_[this->NearIndex_[cell]].Close;
+  }
   void FindNearCells();
+  void FindVarying();
+  /// Parts that a piece of a ray of some length in a cell is cut into.
+  int Pieces(std::int64_t cell, double length, int band) const;
+  double PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, int band) const;
   /// Returns what the lights that are not near leave of the direct fluence in a cell.
   Spectrum MeasureNearCell(std::int64_t cell, NearCell& near) const;
   /// Fluence of the lights that are not in the list.
   Spectrum OthersFluence(std::int64_t cell, const NearCell& near) const;
 
   const Scene& Scene_;
+  const LightField& Field_;
   DirectLight Direct_;
   OpenFaces Open_;
   std::size_t Cells_;
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;
   std::vector<CellShape> Shapes_;
-  /// Of each cell, its place among NearCells_, or -1; empty: no light is near to any.
+  /// Of each cell, its place among NearCells_, or -1; empty: no smoke scatters.
   std::vector<std::int32_t> NearIndex_;
   std::vector<NearCell> NearCells_;
   /// Of each light that is near to a cell.
   std::vector<std::unique_ptr<NearField>> NearFields_;
+  /// Whether the fluence varies inside a cell by more than a flat source may: [band][cell].
+  std::vector<bool> Varies_;
 };
 
 } // namespace smokevis

@@ -36,16 +36,6 @@ constexpr double TriangleRatio = 0.5;
 constexpr double TrianglePointRatio = 0.1;
 constexpr int TriangleSplits = 4;
 
-/// Weights of the quadratic through three Gauss points.
-std::array<double, 3> QuadraticWeights(double t)
-{
-  const double a = t - Nodes3[0];
-  const double b = t - Nodes3[1];
-  const double c = t - Nodes3[2];
-  constexpr double step = Nodes3[1] - Nodes3[0];
-  return {b * c / (2.0 * step * step), -a * c / (step * step), a * b / (2.0 * step * step)};
-}
-
 Vec3 Bilinear(const std::array<Vec3, 4>& corners, double u, double v)
 {
   return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
@@ -182,13 +172,8 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receive
     return {0.0, 1.0};
   }
   const double depth = this->Depth(receiver, group.Centre);
-  double least = this->Scene_.ExtinctionScale(0);
-  for (int band = 1; band < this->Scene_.Bands(); ++band)
-  {
-    least = std::min(least, this->Scene_.ExtinctionScale(band));
-  }
   double visible = 1.0;
-  if (depth * least > DeepestDepth)
+  if (depth * this->Scene_.SmallestScale() > DeepestDepth)
   {
     visible = 0.0;
   }
@@ -390,7 +375,12 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
     size = std::max(size, glm::length(corner - centre));
   }
   const double distance = root.Distance(centre);
-  if (glm::dot(centre - root.Centre, root.Normal) + size < -root.Radius)
+  // What does not reach before the light gets nothing from it: so do the light's own cells, and the
+  // wall that it is on.
+  const auto height = [&root](const Vec3& corner)
+  { return glm::dot(corner - root.Centre, root.Normal); };
+  const double highest = std::max({height(corners[0]), height(corners[1]), height(corners[2])});
+  if (highest <= this->Scene_.Shapes().Tolerance() - root.Depth)
   {
     return;
   }

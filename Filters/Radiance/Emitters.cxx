@@ -422,6 +422,7 @@ void EmitterSet::FillGroup(
     for (const Vec3& corner : leaves[i].Corners)
     {
       all.Radius = std::max(all.Radius, glm::length(corner - all.Centre));
+      all.Depth = std::max(all.Depth, glm::dot(all.Centre - corner, all.Normal));
     }
   }
   // The rectangle around the group, along the first leaf's first edge.

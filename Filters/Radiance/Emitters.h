@@ -57,6 +57,8 @@ struct LightGroup
   Vec3 Centre{0.0};
   double Radius = 0.0;
   Vec3 Normal{0.0};
+  /// How far it reaches behind the plane through Centre [m]; 0 but for rounding where it is plane.
+  double Depth = 0.0;
   EmissionLaw Law;
   /// Sum of luminance times area [cd]; for a leaf the luminance is this over Area.
   Spectrum Intensity{};

@@ -38,6 +38,8 @@ struct Shapes
 {
   std::vector<Vec3> Corner, Normal;
   std::vector<std::uint32_t> Cell;
+  /// Indices in the mesh.
+  std::vector<std::size_t> Triangles;
   SceneHandle Tree;
 };
 
@@ -123,7 +125,8 @@ struct Geometry::Implementation
 
   void Add(Shapes& shapes, const SurfaceMesh& mesh) const
   {
-    const std::vector<std::size_t> triangles = UsefulTriangles(mesh);
+    shapes.Triangles = UsefulTriangles(mesh);
+    const std::vector<std::size_t>& triangles = shapes.Triangles;
     if (triangles.empty())
     {
       return;
@@ -185,6 +188,16 @@ struct Geometry::Implementation
     return ray;
   }
 
+  /// Whether a ray begins and leads where single precision reaches. From beyond, a scene is less
+  /// than a point, and Embree would end the program.
+  static bool WithinReach(const RTCRay& ray)
+  {
+    const std::array<float, 6> values = {
+      ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z};
+    return std::all_of(
+      values.begin(), values.end(), [](float value) { return std::abs(value) < 1e18F; });
+  }
+
   Hit IntersectOne(
     const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin, double end) const
   {
@@ -199,6 +212,10 @@ struct Geometry::Implementation
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    if (!WithinReach(query.ray))
+    {
+      return hit;
+    }
     rtcIntersect1(shapes.Tree.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
     {
@@ -243,6 +260,10 @@ struct Geometry::Implementation
     rtcInitIntersectContext(&gathering.Context);
     gathering.Context.filter = GatherAll;
     gathering.Met = &met;
+    if (!WithinReach(query.ray))
+    {
+      return;
+    }
     rtcIntersect1(shapes.Tree.get(), &gathering.Context, &query);
     for (const auto& [triangle, distance] : met)
     {
@@ -281,6 +302,10 @@ struct Geometry::Implementation
       return false;
     }
     RTCRay ray = MakeRay(origin + begin * direction - this->Centre, direction, end - begin);
+    if (!WithinReach(ray))
+    {
+      return false;
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(shapes.Tree.get(), &context, &ray);
@@ -335,6 +360,16 @@ double Geometry::Tolerance() const
   return this->Implementation_->Tolerance;
 }
 
+const std::vector<std::size_t>& Geometry::SurfaceTriangles() const
+{
+  return this->Implementation_->Surfaces.Triangles;
+}
+
+const std::vector<std::size_t>& Geometry::EmitterTriangles() const
+{
+  return this->Implementation_->Emitters.Triangles;
+}
+
 std::uint32_t Geometry::Cell(const Hit& hit) const
 {
   const Implementation& self = *this->Implementation_;
@@ -387,7 +422,14 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     const auto behind = [begin](const Hit& hit) { return hit.Distance >= begin; };
     nextSurface = std::find_if(nextSurface, surfaces.end(), behind);
     nextPlate = std::find_if(nextPlate, plates.end(), behind);
-    const Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
+    // Of surfaces that lie in one another the first of the model counts, whichever way rounding
+    // falls.
+    Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
+    for (auto other = nextSurface;
+         other != surfaces.end() && other->Distance <= nextSurface->Distance + gap; ++other)
+    {
+      surface = other->Triangle < surface.Triangle ? *other : surface;
+    }
     const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
     if (!surface.Found() && !plate.Found())
     {

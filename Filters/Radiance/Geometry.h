@@ -29,7 +29,7 @@ struct Hit
 {
   /// Distance along the ray [m]; infinity: nothing was hit.
   double Distance = std::numeric_limits<double>::infinity();
-  /// Index of the triangle, of the surfaces or of the emitters.
+  /// Place of the triangle among Geometry's, of the surfaces or of the emitters.
   std::uint32_t Triangle = 0;
   /// True where a plate of a sign or lamp was hit.
   bool Emitter = false;
@@ -66,6 +66,10 @@ public:
   bool Empty() const;
   /// Distance within which two shapes count as touching [m].
   double Tolerance() const;
+  /// Triangles that are there to be hit, as indices into their mesh; Hit::Triangle is a place in
+  /// this list.
+  const std::vector<std::size_t>& SurfaceTriangles() const;
+  const std::vector<std::size_t>& EmitterTriangles() const;
   /// The cell of a surface triangle or of an emitter triangle.
   std::uint32_t Cell(const Hit& hit) const;
   /// Unit normal of the front of the triangle that was hit.

@@ -19,11 +19,8 @@ namespace
 constexpr double CrossingsPerSweep = 1.5;
 constexpr std::size_t FewestLines = 512;
 constexpr double MostLinesForPatches = 20000.0;
-/// Optical depth across a cell below which its source is flat enough, that of the pieces that
-/// thicker ones are cut into, and most pieces of one.
-constexpr double FlatDepth = 0.41;
-constexpr double PieceDepth = 0.5;
-constexpr int MostParts = 8;
+/// Times that lines must have met a cell or patch for its light to be expected there.
+constexpr float FewestMeetings = 1.0F;
 
 /// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface
 /// with a cosine-distributed direction.
@@ -75,6 +72,7 @@ void BatchState::Restart()
 {
   std::fill(this->FluenceSum.begin(), this->FluenceSum.end(), 0.0F);
   std::fill(this->IlluminanceSum.begin(), this->IlluminanceSum.end(), 0.0F);
+  this->EscapedSum = 0.0;
   this->Counted = 0;
 }
 
@@ -83,9 +81,9 @@ struct LineSweep::Buffers
   std::vector<Crossing> Crossings;
   std::vector<Segment> Segments;
   /// Of each piece of the line: cell, length, direct fluence, source luminance, exp(-tau),
-  /// (1 - exp(-tau)) / tau.
+  /// (1 - exp(-tau)) / tau, and the luminance that it adds, (1 - exp(-tau)) times the source.
   std::vector<std::int64_t> Cell;
-  std::vector<float> Length, Direct, Source, Transmittance, Escape;
+  std::vector<float> Length, Direct, Source, Transmittance, Escape, Added;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
   /// Sum of both directions' path integrals.
@@ -103,7 +101,6 @@ LineSweep::LineSweep(
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
   this->Extinction_.resize(cells);
-  this->Varies_.resize(cells);
   double boundary = 0.0;
   double volume = 0.0;
   for (std::size_t cell = 0; cell < cells; ++cell)
@@ -113,11 +110,6 @@ LineSweep::LineSweep(
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
-    // In the thickest cells pieces would not follow the light; means keep the balance of power.
-    const double depth = this->Extinction_[cell] * std::max({size.x, size.y, size.z});
-    this->Varies_[cell] = this->DirectFluence_[cell] > 0.0F && depth > 0.0 &&
-                          depth < MostParts * PieceDepth &&
-                          (depth > FlatDepth || direct.Close(static_cast<std::int64_t>(cell)));
     volume += own;
     boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   }
@@ -165,6 +157,23 @@ LineSweep::LineSweep(
     lines = std::max(lines, std::min(wanted, MostLinesForPatches));
   }
   this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
+  // All directed lines through a convex body measure pi times its surface. Each line drawn serves
+  // in both of its directions.
+  const auto drawn = static_cast<double>(this->Lines_);
+  this->Weight_ = glm::pi<double>() * box / (2.0 * drawn);
+  this->CellCrossings_.resize(cells);
+  for (std::size_t cell = 0; cell < cells; ++cell)
+  {
+    const Vec3 edges = smoke.CellSize(cell);
+    this->CellCrossings_[cell] = static_cast<float>(
+      drawn * 2.0 * (edges.x * edges.y + edges.y * edges.z + edges.z * edges.x) / box);
+  }
+  this->SideHits_.resize(2 * scene.Patches());
+  for (std::size_t side = 0; side < this->SideHits_.size(); ++side)
+  {
+    this->SideHits_[side] =
+      static_cast<float>(drawn * 2.0 * scene.ExposedArea(side / 2, side % 2) / box);
+  }
 }
 
 float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const
@@ -190,37 +199,8 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
-void LineSweep::AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
-  double end, Buffers& buffers) const
-{
-  const double length = end - begin;
-  if (!this->Varies_[cell])
-  {
-    buffers.Cell.push_back(cell);
-    buffers.Length.push_back(static_cast<float>(length));
-    buffers.Direct.push_back(this->DirectFluence_[cell]);
-    return;
-  }
-  // Thick pieces are cut: the source is flat in each.
-  const int parts = std::clamp(
-    static_cast<int>(std::ceil(this->Extinction_[cell] * length / PieceDepth)), 1, MostParts);
-  for (int part = 0; part < parts; ++part)
-  {
-    const double from = begin + length * part / parts;
-    const double to = begin + length * (part + 1) / parts;
-    double direct = this->Direct_.Smooth(cell, origin + 0.5 * (from + to) * direction, this->Band_);
-    if (this->Direct_.Near(cell))
-    {
-      direct += this->Direct_.NearMean(cell, origin, direction, from, to, this->Band_);
-    }
-    buffers.Cell.push_back(cell);
-    buffers.Length.push_back(static_cast<float>(to - from));
-    buffers.Direct.push_back(static_cast<float>(direct));
-  }
-}
-
-void LineSweep::TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
-  const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const
+void LineSweep::TraceLine(const BatchState& state, const Vec3& origin, const Vec3& direction,
+  double length, LineTallies& tallies, Buffers& buffers) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
@@ -230,6 +210,16 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   buffers.Direct.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  const auto add = [&](std::int64_t cell, double begin, double end)
+  {
+    this->Direct_.ForEachPart(cell, origin, direction, begin, end, this->Band_,
+      [&buffers, cell](double part, double direct)
+      {
+        buffers.Cell.push_back(cell);
+        buffers.Length.push_back(static_cast<float>(part));
+        buffers.Direct.push_back(static_cast<float>(direct));
+      });
+  };
   std::size_t crossing = 0;
   const auto closeUntil = [&](double distance)
   {
@@ -247,11 +237,11 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance < segment.End)
     {
       const double middle = buffers.Crossings[crossing].Arrive.Distance;
-      this->AddPiece(origin, direction, segment.Cell, begin, middle, buffers);
+      add(segment.Cell, begin, middle);
       begin = middle;
       closeUntil(middle);
     }
-    this->AddPiece(origin, direction, segment.Cell, begin, segment.End, buffers);
+    add(segment.Cell, begin, segment.End);
   }
   closeUntil(std::numeric_limits<double>::infinity());
   const std::size_t pieces = buffers.Cell.size();
@@ -260,6 +250,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
   buffers.Source.resize(pieces);
   buffers.Transmittance.resize(pieces);
   buffers.Escape.resize(pieces);
+  buffers.Added.resize(pieces);
   buffers.Integral.resize(pieces);
   for (std::size_t i = 0; i < pieces; ++i)
   {
@@ -272,13 +263,15 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     buffers.Escape[i] = depth < 0.01F
                           ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
                           : (1.0F - transmittance) / depth;
+    // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
+    buffers.Added[i] = depth * buffers.Escape[i] * buffers.Source[i];
   }
 
   const auto arrive = [&](const Hit& hit, float radiance)
   {
     const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
-    tallies.Illuminance[side] += radiance - reference.Scale * reference.Illuminance[side] *
-                                              static_cast<float>(1.0 / glm::pi<double>());
+    tallies.Illuminance[side] +=
+      radiance - static_cast<float>(glm::one_over_pi<double>()) * tallies.ExpectedIlluminance[side];
   };
   const auto sky = static_cast<float>(this->Scene_.Sky());
   float radiance = sky;
@@ -288,7 +281,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     {
       const float excess = radiance - buffers.Source[i];
       buffers.Integral[i] = buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
-      radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
+      radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
     }
     if (part < crossings)
     {
@@ -296,6 +289,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
       radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
     }
   }
+  tallies.Escaped += radiance;
   radiance = sky;
   for (std::size_t part = crossings + 1; part-- > 0;)
   {
@@ -303,7 +297,7 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
     {
       const float excess = radiance - buffers.Source[i];
       buffers.Integral[i] += buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
-      radiance = buffers.Source[i] + excess * buffers.Transmittance[i];
+      radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
     }
     if (part > 0)
     {
@@ -311,27 +305,48 @@ void LineSweep::TraceLine(const BatchState& state, const Reference& reference, c
       radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive, direction);
     }
   }
+  tallies.Escaped += radiance;
   constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const std::int64_t cell = buffers.Cell[i];
-    tallies.Fluence[cell] += buffers.Integral[i] - isotropic * reference.Scale *
-                                                     reference.Fluence[cell] * buffers.Length[i];
+    tallies.Fluence[cell] +=
+      buffers.Integral[i] - isotropic * tallies.ExpectedFluence[cell] * buffers.Length[i];
+  }
+}
+
+void LineSweep::Expect(const BatchState& state, LineTallies& tallies) const
+{
+  // The tallies measure by how much the radiance differs from that of an expected field: lengths
+  // and hits have known expectations, so this leaves the mean as it is and takes their scatter
+  // away. What is expected must not know of this sweep's lines, and must have been met by lines
+  // itself: its noise would come back larger.
+  const bool counted = state.Counted > 0;
+  const float scale = counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F;
+  const auto sweeps = static_cast<float>(std::max(1, state.Counted));
+  const std::vector<float>& fluence = counted ? state.FluenceSum : state.Fluence;
+  tallies.ExpectedFluence.resize(fluence.size());
+  for (std::size_t cell = 0; cell < fluence.size(); ++cell)
+  {
+    tallies.ExpectedFluence[cell] =
+      sweeps * this->CellCrossings_[cell] >= FewestMeetings ? scale * fluence[cell] : 0.0F;
+  }
+  const std::vector<float>& illuminance = counted ? state.IlluminanceSum : state.Illuminance;
+  tallies.ExpectedIlluminance.resize(illuminance.size());
+  for (std::size_t side = 0; side < illuminance.size(); ++side)
+  {
+    tallies.ExpectedIlluminance[side] =
+      sweeps * this->SideHits_[side] >= FewestMeetings ? scale * illuminance[side] : 0.0F;
   }
 }
 
 void LineSweep::Run(
   BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const
 {
-  // The tallies measure by how much the radiance differs from that of a reference field: lengths
-  // and hits have known expectations, so this leaves the mean as it is and takes their scatter
-  // away. The reference must not know of this sweep's lines.
-  const bool counted = state.Counted > 0;
-  const Reference reference = {counted ? state.FluenceSum.data() : state.Fluence.data(),
-    counted ? state.IlluminanceSum.data() : state.Illuminance.data(),
-    counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F};
+  this->Expect(state, tallies);
   tallies.Fluence.assign(state.Fluence.size(), 0.0F);
   tallies.Illuminance.assign(state.Illuminance.size(), 0.0F);
+  tallies.Escaped = 0.0;
 
   const EvenPoints points(key);
   Buffers buffers;
@@ -345,31 +360,28 @@ void LineSweep::Run(
     Vec3 direction;
     double length = 0.0;
     DrawLine(this->Lower_, this->Upper_, points.Point(line), origin, direction, length);
-    this->TraceLine(state, reference, origin, direction, length, tallies, buffers);
+    this->TraceLine(state, origin, direction, length, tallies, buffers);
   }
 
-  // All directed lines through a convex body measure pi times its surface. Each line drawn serves
-  // in both of its directions.
-  const Vec3 size = this->Upper_ - this->Lower_;
-  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  const double weight = glm::pi<double>() * box / (2.0 * static_cast<double>(this->Lines_));
-  const auto cellWeight = static_cast<float>(weight);
+  const auto cellWeight = static_cast<float>(this->Weight_);
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
-    state.Fluence[cell] = reference.Scale * reference.Fluence[cell] +
+    state.Fluence[cell] = tallies.ExpectedFluence[cell] +
                           cellWeight * this->InverseVolume_[cell] * tallies.Fluence[cell];
     state.FluenceSum[cell] += state.Fluence[cell];
   }
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
-    const double area = this->Scene_.PatchArea(side / 2);
+    const double area = this->Scene_.ExposedArea(side / 2, side % 2);
     if (area > 0.0)
     {
-      state.Illuminance[side] = reference.Scale * reference.Illuminance[side] +
-                                static_cast<float>(weight / area) * tallies.Illuminance[side];
+      state.Illuminance[side] =
+        tallies.ExpectedIlluminance[side] +
+        static_cast<float>(this->Weight_ / area) * tallies.Illuminance[side];
     }
     state.IlluminanceSum[side] += state.Illuminance[side];
   }
+  state.EscapedSum += this->Weight_ * tallies.Escaped;
   ++state.Counted;
 }
 
@@ -386,7 +398,7 @@ double LineSweep::FirstSource() const
   for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
   {
     power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-             this->Scene_.PatchArea(side / 2) * this->DirectIlluminance_[side];
+             this->Scene_.ExposedArea(side / 2, side % 2) * this->DirectIlluminance_[side];
   }
   const EmitterSet& lights = this->Scene_.Lights();
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
@@ -406,14 +418,30 @@ double LineSweep::LaterSource(const BatchState& state) const
   for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
   {
     power += this->Scene_.Albedo() * this->Extinction_[cell] / this->InverseVolume_[cell] *
-             state.Fluence[cell];
+             state.FluenceSum[cell];
   }
   for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
   {
     power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-             this->Scene_.PatchArea(side / 2) * state.Illuminance[side];
+             this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
   }
-  return power;
+  return power / state.Counted;
+}
+
+double LineSweep::Loss(const BatchState& state) const
+{
+  double power = state.EscapedSum;
+  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
+  {
+    power += (1.0 - this->Scene_.Albedo()) * this->Extinction_[cell] / this->InverseVolume_[cell] *
+             state.FluenceSum[cell];
+  }
+  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
+  {
+    power += (1.0 - this->Scene_.PatchReflectance(side / 2)[this->Band_]) *
+             this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
+  }
+  return power / state.Counted;
 }
 
 } // namespace smokevis

@@ -19,6 +19,8 @@ struct BatchState
   std::vector<float> Fluence, Illuminance;
   /// Sum of the estimates that count, one a sweep.
   std::vector<float> FluenceSum, IlluminanceSum;
+  /// Sum of what left the scene [lm], and how many sweeps the sums count.
+  double EscapedSum = 0.0;
   int Counted = 0;
 
   BatchState(std::size_t cells, std::size_t sides);
@@ -30,6 +32,9 @@ struct BatchState
 struct LineTallies
 {
   std::vector<float> Fluence, Illuminance;
+  std::vector<float> ExpectedFluence, ExpectedIlluminance;
+  /// Radiance that left the scene, not a difference.
+  double Escaped = 0.0;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -57,24 +62,18 @@ public:
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
   /// again of direct light, and what flames, large lights and the sky emit.
   double FirstSource() const;
-  /// Power that they send out again of the light of a state [lm].
+  /// Power that surfaces and smoke send out again of the light of a state, and power that they
+  /// absorb or that leaves the scene; means over the sweeps that count [lm].
   double LaterSource(const BatchState& state) const;
+  double Loss(const BatchState& state) const;
 
 private:
   struct Buffers;
-  /// A known field: values times a scale.
-  struct Reference
-  {
-    const float* Fluence;
-    const float* Illuminance;
-    float Scale;
-  };
 
-  void TraceLine(const BatchState& state, const Reference& reference, const Vec3& origin,
-    const Vec3& direction, double length, LineTallies& tallies, Buffers& buffers) const;
-  /// Adds the pieces that a piece of a line is cut into, with the direct fluence in each.
-  void AddPiece(const Vec3& origin, const Vec3& direction, std::int64_t cell, double begin,
-    double end, Buffers& buffers) const;
+  /// Expects the light that is known so far of the cells and patches where that tells something.
+  void Expect(const BatchState& state, LineTallies& tallies) const;
+  void TraceLine(const BatchState& state, const Vec3& origin, const Vec3& direction, double length,
+    LineTallies& tallies, Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
@@ -85,8 +84,6 @@ private:
   int Band_;
   /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
   float Scatter_;
-  /// Whether direct light varies inside a cell by more than a flat source may.
-  std::vector<bool> Varies_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
   std::vector<float> Extinction_;
@@ -94,6 +91,10 @@ private:
   std::vector<float> Emission_;
   Vec3 Lower_, Upper_;
   std::size_t Lines_ = 0;
+  /// Power that a line carries for each unit of its radiance [m2 sr].
+  double Weight_ = 0.0;
+  /// How often lines of one sweep are expected to meet each cell and each side of a patch.
+  std::vector<float> CellCrossings_, SideHits_;
 };
 
 } // namespace smokevis

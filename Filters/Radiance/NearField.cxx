@@ -3,6 +3,7 @@
 #include "Scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -122,11 +123,6 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
 
 NearField::~NearField() = default;
 
-std::size_t NearField::Nodes() const
-{
-  return this->Nodes_;
-}
-
 Vec3 NearField::ToPlate(const Vec3& point) const
 {
   const Vec3 from = point - this->Centre_;
@@ -189,7 +185,6 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
     level.Values[level.Index(node, each)].store(
       static_cast<float>(value), std::memory_order_relaxed);
   }
-  this->Nodes_.fetch_add(1, std::memory_order_relaxed);
   return kept.load(std::memory_order_relaxed);
 }
 

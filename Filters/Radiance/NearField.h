@@ -4,7 +4,6 @@
 #include "DirectLight.h"
 
 #include <array>
-#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -26,9 +25,6 @@ public:
 
   /// Fluence at a point that sees the whole light [lx].
   double Fluence(const Vec3& point, int band) const;
-
-  /// Nodes computed so far.
-  std::size_t Nodes() const;
 
 private:
   struct Level;
@@ -53,7 +49,6 @@ private:
   /// Extinction at the plate, at 633 nm [1/m].
   double Extinction_ = 0.0;
   std::vector<std::unique_ptr<Level>> Levels_;
-  mutable std::atomic<std::size_t> Nodes_{0};
 };
 
 } // namespace smokevis

@@ -1,10 +1,10 @@
 #include "PlateGather.h"
 
+#include "DirectField.h"
 #include "Sampler.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -20,16 +20,14 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
-/// Rays, of all batches together, for the glow before a plate.
-constexpr int GlowRays = 128;
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 20.0;
 
 } // namespace
 
-PlateGather::PlateGather(
-  const Scene& scene, const LightFieldOptions& options, LightField& field, int band)
-    : Scene_(scene), Options_(options), Direct_(scene), Field_(field), Band_(band)
+PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
+  const DirectField& direct, LightField& field, int band)
+    : Scene_(scene), Options_(options), Direct_(direct), Field_(field), Band_(band)
 {
   const Vec3 size = scene.Upper() - scene.Lower();
   this->LargestPlate_ = LargestShare * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
@@ -128,87 +126,7 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
       break;
     }
   }
-  const auto glow = static_cast<float>(this->Glow(sign));
-  for (float& value : illuminance.Value)
-  {
-    value += glow;
-  }
   return result;
-}
-
-double PlateGather::Glow(const Sign& sign) const
-{
-  const Medium& smoke = this->Scene_.Smoke();
-  const EmitterSet& lights = this->Scene_.Lights();
-  const std::int64_t first = smoke.Locate(sign.Centre + 1e-3 * sign.Radius * sign.Normal);
-  if (first < 0 || this->Scene_.Albedo() == 0.0)
-  {
-    return 0.0;
-  }
-  const Vec3 size = smoke.CellSize(first);
-  const double reach = 2.0 * (sign.Radius + std::max({size.x, size.y, size.z}));
-  std::vector<std::size_t> near;
-  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
-  {
-    if (lights.Groups()[lights.Lights()[light]].Distance(sign.Centre) < reach)
-    {
-      near.push_back(light);
-    }
-  }
-  if (near.empty())
-  {
-    return 0.0;
-  }
-  std::map<std::int64_t, double> means;
-  const auto meanOf = [&](std::int64_t cell)
-  {
-    const auto [known, fresh] = means.try_emplace(cell, 0.0);
-    for (std::size_t i = 0; fresh && i < near.size(); ++i)
-    {
-      known->second += this->Direct_.CellFluence(near[i], cell)[this->Band_];
-    }
-    return known->second;
-  };
-  const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
-  const Vec3 edgeV = sign.Corners[3] - sign.Corners[0];
-  const Vec3 tangent = glm::normalize(edgeU);
-  const Vec3 other = glm::cross(sign.Normal, tangent);
-  const Vec3 base = sign.Corners[0] + 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
-  const EvenPoints points(Mix(this->Options_.Seed + sign.Id));
-  std::vector<Segment> segments;
-  double sum = 0.0;
-  for (int ray = 0; ray < GlowRays; ++ray)
-  {
-    const auto random = points.Point(ray);
-    const double sine = std::sqrt(random[2]);
-    const double angle = glm::two_pi<double>() * random[3];
-    const Vec3 origin = base + random[0] * edgeU + random[1] * edgeV;
-    const Vec3 direction = sine * std::cos(angle) * tangent + sine * std::sin(angle) * other +
-                           std::sqrt(1.0 - random[2]) * sign.Normal;
-    const Hit hit = this->Scene_.Shapes().Intersect(origin, direction, 0.0, reach);
-    smoke.Walk(origin, direction, 0.0, std::min(reach, hit.Distance), segments);
-    double depth = 0.0;
-    for (const Segment& segment : segments)
-    {
-      const double extinction =
-        this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell);
-      const double length = segment.End - segment.Begin;
-      const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * length / sign.Radius)));
-      for (int part = 0; part < parts && extinction > 0.0; ++part)
-      {
-        const double place = length * (part + 0.5) / parts;
-        const Vec3 point = origin + (segment.Begin + place) * direction;
-        double fluence = -meanOf(segment.Cell);
-        for (const std::size_t light : near)
-        {
-          fluence += this->Direct_.Fluence(light, point)[this->Band_];
-        }
-        sum += fluence * extinction * length / parts * std::exp(-depth - extinction * place);
-      }
-      depth += extinction * length;
-    }
-  }
-  return 0.25 * this->Scene_.Albedo() * sum / GlowRays;
 }
 
 double PlateGather::Radiance(const Vec3& origin, const Vec3& direction, int batch) const
@@ -223,15 +141,20 @@ double PlateGather::Radiance(const Vec3& origin, const Vec3& direction, int batc
   double sum = 0.0;
   for (const Segment& segment : segments)
   {
-    const double own = this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell) *
-                       (segment.End - segment.Begin);
-    const std::size_t index = this->Field_.CellIndex(this->Band_, segment.Cell);
-    const double source =
-      albedo / (4.0 * glm::pi<double>()) *
-        (this->Field_.DirectFluence[index] + this->Field_.MultipleFluence[index][batch]) +
-      (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
-    sum += std::exp(-depth) * -std::expm1(-own) * source;
-    depth += own;
+    const double extinction =
+      this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell);
+    const double multiple =
+      this->Field_.MultipleFluence[this->Field_.CellIndex(this->Band_, segment.Cell)][batch];
+    const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
+    this->Direct_.ForEachPart(segment.Cell, origin, direction, segment.Begin, segment.End,
+      this->Band_,
+      [&](double length, double direct)
+      {
+        const double own = extinction * length;
+        const double source = albedo / (4.0 * glm::pi<double>()) * (direct + multiple) + emitted;
+        sum += std::exp(-depth) * -std::expm1(-own) * source;
+        depth += own;
+      });
     if (depth > DeepestDepth)
     {
       return sum;

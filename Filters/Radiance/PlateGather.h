@@ -1,12 +1,13 @@
 // Indirect light on the plates of signs, gathered along rays through the solved light field.
 #pragma once
 
-#include "DirectLight.h"
 #include "LightField.h"
 #include "Scene.h"
 
 namespace smokevis
 {
+
+class DirectField;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
 /// and the cells of their pattern more rarely still, so that noise would pass for a pattern.
@@ -15,8 +16,10 @@ namespace smokevis
 class PlateGather
 {
 public:
+  /// @param direct is the direct light in the smoke
   /// @param field holds all light of the band; receives the new illuminances of fronts
-  PlateGather(const Scene& scene, const LightFieldOptions& options, LightField& field, int band);
+  PlateGather(const Scene& scene, const LightFieldOptions& options, const DirectField& direct,
+    LightField& field, int band);
 
   /// All plates, in parallel, unless it is stopped. Returns how many were gathered, and how many
   /// rays that took.
@@ -33,13 +36,10 @@ private:
   /// Light that comes in against a ray in one batch, without what emitters send directly [cd/m2].
   double Radiance(const Vec3& origin, const Vec3& direction, int batch) const;
   double Leaving(const Hit& hit, const Vec3& direction, int batch) const;
-  /// What the smoke right before a plate scatters back to it beyond what the cells' mean fluence
-  /// says: close to a light fluence is far from its cell's mean [lx].
-  double Glow(const Sign& sign) const;
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;
-  DirectLight Direct_;
+  const DirectField& Direct_;
   LightField& Field_;
   int Band_;
   /// A sign whose area is larger is a wall [m2].

@@ -1,5 +1,7 @@
 #include "PlateVeil.h"
 
+#include "GaussNodes.h"
+
 #include <algorithm>
 
 namespace smokevis
@@ -8,20 +10,8 @@ namespace smokevis
 namespace
 {
 
-/// Gauss-Legendre nodes on (0, 1).
-constexpr std::array<double, 3> GaussNodes = {0.11270166537925831, 0.5, 0.88729833462074169};
 /// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
 constexpr std::size_t MostColumns = 16;
-
-/// Weights of the quadratic through the three Gauss nodes.
-std::array<double, 3> Quadratic(double t)
-{
-  const double a = GaussNodes[0];
-  const double b = GaussNodes[1];
-  const double c = GaussNodes[2];
-  return {(t - b) * (t - c) / ((a - b) * (a - c)), (t - a) * (t - c) / ((b - a) * (b - c)),
-    (t - a) * (t - b) / ((c - a) * (c - b))};
-}
 
 } // namespace
 
@@ -55,7 +45,7 @@ std::size_t PlateColumns::Of(double t) const
 double PlateColumns::Node(std::size_t column, int index) const
 {
   const double width = this->Ends[column + 1] - this->Ends[column];
-  return this->Ends[column] + width * (index == 0 ? 0.21132486540518712 : 0.78867513459481288);
+  return this->Ends[column] + width * Nodes2[index];
 }
 
 Vec3 OnPlate(const Sign& sign, double u, double v)
@@ -83,7 +73,7 @@ PlateVeil::PlateVeil(const View& view, const Sign& sign, const Vec3& eye, int ba
   {
     for (int i = 0; i < 3; ++i)
     {
-      this->Far_[j][i] = this->Trace(view, sign, eye, band, GaussNodes[i], GaussNodes[j], true);
+      this->Far_[j][i] = this->Trace(view, sign, eye, band, Nodes3[i], Nodes3[j], true);
     }
   }
   this->Near_.resize(columns.Count() * rows.Count());
@@ -111,8 +101,8 @@ PlateVeil::PlateVeil(const View& view, const Sign& sign, const Vec3& eye, int ba
 
 Lanes PlateVeil::At(const glm::dvec2& place) const
 {
-  const auto u = Quadratic(place.x);
-  const auto v = Quadratic(place.y);
+  const auto u = QuadraticWeights(place.x);
+  const auto v = QuadraticWeights(place.y);
   Lanes veil =
     this->Near_[this->Rows_.Of(place.y) * this->Columns_.Count() + this->Columns_.Of(place.x)];
   double steady = 0.0;

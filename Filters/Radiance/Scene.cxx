@@ -1,6 +1,7 @@
 #include "Scene.h"
 
 #include "Errors.h"
+#include "Exposure.h"
 
 #include <cmath>
 #include <limits>
@@ -152,6 +153,9 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
                     ? earlier->Shapes_
                     : std::make_shared<const Geometry>(
                         this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
+  this->ExposedArea_ = this->SharesShapes_ ? earlier->ExposedArea_
+                                           : ExposedAreas(*this->Shapes_,
+                                               this->Description_.Surfaces, this->EmitterMesh_);
 }
 
 } // namespace smokevis

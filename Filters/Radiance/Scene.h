@@ -57,6 +57,12 @@ public:
     const auto& scale = this->Description_.ExtinctionScale;
     return *std::max_element(scale.begin(), scale.begin() + this->Description_.Bands);
   }
+  /// Of the band that the smoke dims least.
+  double SmallestScale() const
+  {
+    const auto& scale = this->Description_.ExtinctionScale;
+    return *std::min_element(scale.begin(), scale.begin() + this->Description_.Bands);
+  }
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return *this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }
@@ -65,6 +71,11 @@ public:
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
   std::size_t Patches() const { return this->PatchArea_.size(); }
   double PatchArea(std::size_t patch) const { return this->PatchArea_[patch]; }
+  /// Area of one side of a patch that nothing touches and covers [m2]; side 0 is the front.
+  double ExposedArea(std::size_t patch, int side) const
+  {
+    return this->ExposedArea_[2 * patch + side];
+  }
   const Spectrum& PatchReflectance(std::size_t patch) const
   {
     return this->PatchReflectance_[patch];
@@ -91,6 +102,8 @@ private:
   std::shared_ptr<const Geometry> Shapes_;
   bool SharesShapes_ = false;
   std::vector<double> PatchArea_;
+  /// [patch][side].
+  std::vector<double> ExposedArea_;
   std::vector<Spectrum> PatchReflectance_;
   Vec3 Lower_{0.0};
   Vec3 Upper_{0.0};

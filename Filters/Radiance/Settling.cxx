@@ -57,8 +57,8 @@ BlockMeans::BlockMeans(
   weights.resize(2 * field.Patches);
   for (std::size_t side = 0; side < weights.size(); ++side)
   {
-    weights[side] = static_cast<float>(
-      scene.PatchArea(side / 2) * std::max(DarkShare, scene.PatchReflectance(side / 2)[band]));
+    weights[side] = static_cast<float>(scene.ExposedArea(side / 2, side % 2) *
+                                       std::max(DarkShare, scene.PatchReflectance(side / 2)[band]));
   }
   this->Add(batches, &BatchState::IlluminanceSum,
     field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), weights);

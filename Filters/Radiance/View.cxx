@@ -57,16 +57,11 @@ struct View::Implementation
   explicit Implementation(const Scene& scene, const LightField& field)
       : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
   {
-    this->MultipleMean.reserve(field.MultipleFluence.size());
-    for (const Lanes& lanes : field.MultipleFluence)
-    {
-      this->MultipleMean.push_back(static_cast<float>(Mean(lanes)));
-    }
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
-      const float* means = this->MultipleMean.data() + field.CellIndex(band, 0);
+      const Lanes* lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
       this->MultipleShape[band] = CellShape(scene, this->DirectFluence.Open(),
-        [means](std::int64_t, std::int64_t cell) { return means[cell]; });
+        [lanes](std::int64_t, std::int64_t cell) { return static_cast<float>(Mean(lanes[cell])); });
     }
     this->FindLeak();
   }
@@ -79,8 +74,7 @@ struct View::Implementation
   const LightField& Field;
   DirectLight Direct;
   DirectField DirectFluence;
-  /// Mean of the batches of the multiply scattered fluence.
-  std::vector<float> MultipleMean;
+  /// How the mean of the batches of the multiply scattered fluence varies.
   std::array<CellShape, 3> MultipleShape;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
@@ -210,8 +204,8 @@ double View::Reflected(
   return factor * illuminance;
 }
 
-double View::Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal,
-  int band, Lanes& lanes) const
+double View::Illuminance(
+  std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band, Lanes& lanes) const
 {
   double direct = 0.0;
   for (std::size_t light = 0; light < this->Scene_->Lights().Lights().size(); ++light)

@@ -101,6 +101,20 @@ def check_ranks():
         assert vtk_to_numpy(result)[0] == whole, (algorithm.GetClassName(), own, whole)
     assert all(fraction in (0.0, 1.0) for fraction in starts), starts
 
+    # Through time all processes walk together, and the first one writes the file.
+    over_time = simple.VisibilityOverTime(FloorMap=filters[2], TimeRange=[18.5, 23.0])
+    route = simple.RouteVisibility(
+        LightField=filters[0], Route=simple.PolyLineSource(Points=[2.5, 1.2, 0, 0.5, 1.2, 0]), StartTime=20.5)
+    for name, proxy in (("over", over_time), ("route", route)):
+        algorithm = proxy.GetClientSideObject()
+        algorithm.UpdateTimeStep(0.0, 0, 1, 0)
+        assert algorithm.GetOutputDataObject(0).GetNumberOfPoints() == (35 if name == "over" else 5)
+        digest(algorithm.GetOutputDataObject(0), lines, "time " + name)
+    simple.SaveData(OUTPUT + ".nc", proxy=filters[2], TimeRange=[18.5, 23.0])
+    if rank == 0:
+        with open(OUTPUT + ".nc", "rb") as file:
+            lines.append("time file %s" % hashlib.sha256(file.read()).hexdigest())
+
     # What one process lacks is an error for all, and nobody waits for it.
     with tempfile.TemporaryDirectory() as temporary:
         table = os.path.join(temporary, "signs.csv")

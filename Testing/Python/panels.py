@@ -121,4 +121,22 @@ for value in (0.21, 0.5, 0.9):
     assert max(color(value)) - min(color(value)) < 1e-6, color(value)
 assert color(0.9)[0] > color(0.5)[0] > color(0.21)[0]
 assert color(0.1) == color(0.19) and color(0.1)[0] > 2 * color(0.1)[1]
+
+# --- the signs of a light field, to pick from ---------------------------------------------------------
+signs = simple.ExitSign(SignTable=os.path.join(sys.argv[2], "Hall", "signs.csv"))
+hall = simple.SmokeLightField(Smoke=scenes.producer(scenes.image((4, 4, 1), (55.0, 35.0, 5.0), 0.0), "Air"),
+                              Emitters=[signs], Albedo=0)
+hall.UpdatePipeline()
+image = simple.VisibilityImage(LightField=hall, CameraPosition=[27, 17, 1.7], ImageSize=[8, 4])
+offered = list(image.SMProxy.GetProperty("TargetSignName").FindDomain("vtkSMStringListDomain").GetString(i)
+               for i in range(9))
+assert offered[:3] == ["(by id)", "0: South west", "1: South east"] and len(offered) == 9, offered
+assert image.TargetSignName == "(by id)" and image.TargetSign == -1
+for choice in ("6: East south", "East south"):
+    image.TargetSignName = choice
+    assert scenes.field(scenes.fetch(image), "MeasuredSign") == 6, choice
+image.TargetSignName = "Back door"
+with scenes.Messages() as messages:
+    scenes.fetch(image)
+assert "no sign 'Back door'" in messages.text and "'7: East north'" in messages.text, messages.text
 print("panels: passed")

@@ -21,7 +21,7 @@ from samples import IES, RESPONSE, png
 
 TIME = 20.0  # s
 PROXIES = {"FDSSmokeReader", "CADReader", "ExitSign", "Luminaire", "SmokeLightField", "VisibilityImage",
-           "FloorMapOfVisibility", "JinVisibility", "VisibilityOverTime"}
+           "FloorMapOfVisibility", "JinVisibility", "VisibilityOverTime", "RouteVisibility"}
 
 
 def leaves(data):
@@ -110,6 +110,9 @@ def build(simple, folder):
                                         EyeHeight=1.6, ContrastThreshold=0.25)
     simple.JinVisibility(registrationName="Practice", LightField=light, FloorMap=floor)
     simple.VisibilityOverTime(registrationName="Over time", FloorMap=floor, TimeRange=[0, 1])
+    way = simple.Line(registrationName="Way", Point1=[2.5, 1.2, 0], Point2=[1, 1.2, 0], Resolution=2)
+    simple.RouteVisibility(registrationName="Walk", LightField=light, Route=way, SpeedLaw="Fridolf",
+                           SampleSpacing=1, StartTime=0.25)
     assert {proxy.GetXMLName() for proxy in simple.GetSources().values()} >= PROXIES
 
 
@@ -154,7 +157,7 @@ with tempfile.TemporaryDirectory() as temporary:
     build(paraview, here)
     trace = smtrace.stop_trace()
     expected = digests(paraview)
-    assert len(expected) == 12 and all(not text.startswith("0 ") for text in expected.values()), expected
+    assert len(expected) == 14 and all(not text.startswith("0 ") for text in expected.values()), expected
 
     def write(name, content):
         with open(os.path.join(temporary, name), "w") as file:

@@ -83,8 +83,7 @@ void CompareFields(
   report::Absolute("direct illuminance", 0.0,
     LargestChange(plain.Field->DirectIlluminance, other.Field->DirectIlluminance, number),
     tolerance);
-  // The same lines are drawn. A few of them pass an edge on its other side because of a rounding,
-  // one line among the hundreds that cross each cell.
+  // The same lines are drawn.
   report::Absolute("multiple fluence, whole scene", 0.0,
     std::abs(LargestChange(std::vector<double>{1.0},
       std::vector<double>{[&]
@@ -99,11 +98,11 @@ void CompareFields(
           return b / a;
         }()},
       [](double value) { return value; })),
-    std::max(tolerance, 1e-4));
+    tolerance);
   const SignMeasurement a = MeasureSign(*plain.TheView, 0, Eye, Observer{0.0});
   const SignMeasurement b = MeasureSign(*other.TheView, 0, scale * Eye + offset, Observer{0.0});
-  report::Absolute("contrast", a.Contrast, b.Contrast, std::max(tolerance, 1e-4));
-  report::Relative("mean luminance", a.MeanLuminance, b.MeanLuminance, std::max(tolerance, 2e-4));
+  report::Absolute("contrast", a.Contrast, b.Contrast, tolerance);
+  report::Relative("mean luminance", a.MeanLuminance, b.MeanLuminance, tolerance);
 }
 
 // Lengths times s and extinctions over s: 1e-5, which leaves room for roundings of float inputs.

@@ -88,10 +88,10 @@ public:
     Average multiple;
     for (std::size_t patch = 0; patch < this->TheScene->Patches(); ++patch)
     {
-      const double weight =
-        (1.0 - this->TheScene->PatchReflectance(patch)[0]) * this->TheScene->PatchArea(patch);
       for (int side = 0; side < 2; ++side)
       {
+        const double weight = (1.0 - this->TheScene->PatchReflectance(patch)[0]) *
+                              this->TheScene->ExposedArea(patch, side);
         const std::size_t index = this->Field->PatchIndex(0, patch, side);
         direct += weight * this->Field->DirectIlluminance[index];
         multiple.Add(this->Field->MultipleIlluminance[index], weight);

@@ -13,9 +13,11 @@
 #include <vtkFloorMapOfVisibility.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkLineSource.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
+#include <vtkRouteVisibility.h>
 #include <vtkSmokeLightField.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkVisibilityImage.h>
@@ -225,6 +227,17 @@ TEST_F(AbortTest, OfTheImage)
   image->SetCameraPosition(1.0, 2.5, 1.5);
   image->SetTargetSign(0);
   CheckAbort(image, [&](int step) { image->SetImageSize(400 + step, 200); });
+}
+
+TEST_F(AbortTest, OfAWalk)
+{
+  vtkNew<vtkLineSource> way;
+  way->SetPoint1(0.5, 0.5, 0.0);
+  way->SetPoint2(9.0, 4.5, 0.0);
+  vtkNew<vtkRouteVisibility> route;
+  route->SetInputConnection(0, this->Field->GetOutputPort());
+  route->SetInputConnection(1, way->GetOutputPort());
+  CheckAbort(route, [&](int step) { route->SetSampleSpacing(0.004 + 0.0001 * step); });
 }
 
 TEST_F(AbortTest, OfTheLightFieldLeavesTheMapMadeOfItInPlace)

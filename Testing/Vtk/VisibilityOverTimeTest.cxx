@@ -108,6 +108,14 @@ TEST_F(VisibilityOverTimeTest, NamesTheFirstAndTheLastSign)
   this->Maps->Contrast = {{{0.5F, 0.3F}}, {{0.1F, 0.3F}}, {{0.1F, 0.1F}}};
   EXPECT_EQ(this->Value("FirstSign"), 3);
   EXPECT_EQ(this->Value("LastSign"), 8);
+  // The first sign is lost where 0.5 - 0.4 t is 0.2, the second where 0.3 - 0.2 (t - 1) is.
+  vtkDataArray* const signs =
+    this->Filter->GetOutput()->GetPointData()->GetArray("SignAvailableTime");
+  ASSERT_NE(signs, nullptr);
+  ASSERT_EQ(signs->GetNumberOfComponents(), 2);
+  EXPECT_NEAR(signs->GetComponent(0, 0), 0.75, 1e-6);
+  EXPECT_NEAR(signs->GetComponent(0, 1), 1.5, 1e-6);
+  EXPECT_STREQ(signs->GetComponentName(1), "South");
   auto* const names = vtkStringArray::SafeDownCast(
     this->Filter->GetOutput()->GetFieldData()->GetAbstractArray("SignNames"));
   ASSERT_NE(names, nullptr);

@@ -1,0 +1,89 @@
+// Light on surfaces straight from a sign: which of them lie before it, and how much they get.
+#include "DirectLight.h"
+#include "Scene.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr double Pi = 3.141592653589793;
+
+/// A square of luminance 100 in the plane z, its front upwards.
+EmitterCell Square(const Vec3& centre, double side, int sign)
+{
+  const double half = 0.5 * side;
+  EmitterCell cell;
+  cell.Vertices = {centre + Vec3(-half, -half, 0), centre + Vec3(half, -half, 0),
+    centre + Vec3(half, half, 0), centre + Vec3(-half, half, 0)};
+  cell.Luminance = {100, 100, 100};
+  cell.SignId = sign;
+  return cell;
+}
+
+/// A large room of clear air.
+SceneDescription Room(std::vector<EmitterCell> emitters)
+{
+  SceneDescription scene;
+  SmokeGrid grid;
+  grid.Name = "air";
+  for (std::vector<double>& nodes : grid.Nodes)
+  {
+    nodes = {-20.0, 20.0};
+  }
+  grid.Extinction = {0.0F};
+  scene.Grids = {grid};
+  scene.Emitters = std::move(emitters);
+  return scene;
+}
+
+std::array<Spectrum, 2> OnTriangle(
+  const SceneDescription& description, const std::array<Vec3, 3>& corners)
+{
+  const Scene scene(description);
+  const Vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  return DirectLight(scene).TriangleIlluminance(0, corners, normal);
+}
+
+TEST(DirectLight, NothingLiesBeforeItsOwnPlane)
+{
+  const SceneDescription scene = Room({Square({0, 0, 2}, 1.0, 0), Square({1, 0, 2}, 1.0, 0)});
+  // The sign itself, the wall that it is on, one that begins in its plane, and one behind it.
+  for (const std::array<Vec3, 3>& corners :
+    {std::array<Vec3, 3>{Vec3(-0.5, -0.5, 2), Vec3(0.5, -0.5, 2), Vec3(0.5, 0.5, 2)},
+      {Vec3(-3, -3, 2), Vec3(3, -3, 2), Vec3(0, 3, 2)},
+      {Vec3(3, -3, 2), Vec3(3, 3, 2), Vec3(3, 0, 0)},
+      {Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1)}})
+  {
+    for (const Spectrum& side : OnTriangle(scene, corners))
+    {
+      EXPECT_EQ(side[0], 0.0);
+    }
+  }
+}
+
+TEST(DirectLight, WhatStandsBeforePartOfASignGetsItsLight)
+{
+  // Letters 0.1 m before the ground of their sign: their back sees the ground alone. The patch is
+  // small against the gap, so that the closed form of its middle holds: below the middle of a
+  // square of side a at the distance d, E = 4 L x / sqrt(1 + x^2) atan(x / sqrt(1 + x^2)) with
+  // x = a / (2 d) (Howell, configuration factors, B-4).
+  constexpr double Gap = 0.1;
+  const SceneDescription scene = Room({Square({0, 0, 2}, 1.0, 0), Square({3, 0, 2 + Gap}, 0.2, 0)});
+  const double x = 0.5 / Gap;
+  const double share = x / std::sqrt(1.0 + x * x);
+  const double expected = 4.0 * 100.0 * share * std::atan(share);
+  const std::array<Vec3, 3> patch = {
+    Vec3(-0.005, -0.005, 2 + Gap), Vec3(0.01, -0.005, 2 + Gap), Vec3(-0.005, 0.01, 2 + Gap)};
+  const auto found = OnTriangle(scene, patch);
+  EXPECT_EQ(found[0][0], 0.0);
+  // The nearness of a part 0.1 m below is resolved to a percent, the far square adds nothing.
+  EXPECT_NEAR(found[1][0] / expected, 1.0, 0.01);
+  EXPECT_LT(found[1][0], 100.0 * Pi);
+}
+
+} // namespace
