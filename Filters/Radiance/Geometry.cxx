@@ -188,6 +188,16 @@ struct Geometry::Implementation
     return ray;
   }
 
+  /// Whether a ray begins and leads where single precision reaches. From beyond, a scene is less
+  /// than a point, and Embree would end the program.
+  static bool WithinReach(const RTCRay& ray)
+  {
+    const std::array<float, 6> values = {
+      ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z};
+    return std::all_of(
+      values.begin(), values.end(), [](float value) { return std::abs(value) < 1e18F; });
+  }
+
   Hit IntersectOne(
     const Shapes& shapes, const Vec3& origin, const Vec3& direction, double begin, double end) const
   {
@@ -202,6 +212,10 @@ struct Geometry::Implementation
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    if (!WithinReach(query.ray))
+    {
+      return hit;
+    }
     rtcIntersect1(shapes.Tree.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
     {
@@ -246,6 +260,10 @@ struct Geometry::Implementation
     rtcInitIntersectContext(&gathering.Context);
     gathering.Context.filter = GatherAll;
     gathering.Met = &met;
+    if (!WithinReach(query.ray))
+    {
+      return;
+    }
     rtcIntersect1(shapes.Tree.get(), &gathering.Context, &query);
     for (const auto& [triangle, distance] : met)
     {
@@ -284,6 +302,10 @@ struct Geometry::Implementation
       return false;
     }
     RTCRay ray = MakeRay(origin + begin * direction - this->Centre, direction, end - begin);
+    if (!WithinReach(ray))
+    {
+      return false;
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(shapes.Tree.get(), &context, &ray);

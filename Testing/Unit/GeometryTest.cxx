@@ -2,6 +2,7 @@
 #include "Geometry.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -253,6 +254,23 @@ TEST(Geometry, RaysInThePlaneOfASurface)
   ASSERT_TRUE(hit.Found());
   EXPECT_NEAR(hit.Distance, 3.5, 1e-6);
   EXPECT_EQ(shapes.Cell(hit), 1U);
+}
+
+// From where single precision does not reach, and from nowhere, nothing is met, and nothing breaks.
+TEST(Geometry, RaysFromBeyondSinglePrecision)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Geometry shapes(Square(0.0), {});
+  std::vector<Crossing> crossings;
+  for (const double height : {1e19, 1e60, 1e300, infinity, std::nan("")})
+  {
+    const Vec3 eye(0.1, 0.1, height);
+    EXPECT_FALSE(shapes.Intersect(eye, {0, 0, -1}, 0.0, infinity).Found()) << height;
+    shapes.Cross(eye, {0, 0, -1}, 0.0, infinity, crossings);
+    EXPECT_TRUE(crossings.empty()) << height;
+    EXPECT_FALSE(shapes.Occluded(eye, {0, 0, -1}, 0.0, infinity)) << height;
+  }
+  EXPECT_FALSE(shapes.Intersect({0, 0, 1}, Vec3(std::nan("")), 0.0, infinity).Found());
 }
 
 } // namespace
