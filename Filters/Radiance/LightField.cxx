@@ -54,6 +54,8 @@ public:
 
 private:
   void SolveCells();
+  /// Lights in the order of what they would send to a block through clear air.
+  std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
   void SolvePatches();
   void SolveMultiple(int band);
   int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
@@ -114,6 +116,27 @@ void Solver::ForAll(std::size_t count, std::size_t grain, double from, double to
   }
 }
 
+std::vector<std::size_t> Solver::StrongestFirst(const Medium::Block& block) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Vec3 place = this->Scene_.Smoke().CellCentre(this->Scene_.Smoke().Cell(block, {0, 0, 0}));
+  std::vector<std::pair<double, std::size_t>> strengths;
+  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
+  {
+    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const Vec3 way = root.Centre - place;
+    const double most = *std::max_element(root.Intensity.begin(), root.Intensity.end());
+    strengths.emplace_back(-most / (glm::dot(way, way) + root.Area), light);
+  }
+  std::sort(strengths.begin(), strengths.end());
+  std::vector<std::size_t> order;
+  for (const auto& [strength, light] : strengths)
+  {
+    order.push_back(light);
+  }
+  return order;
+}
+
 void Solver::SolveCells()
 {
   const std::size_t lights = this->Scene_.Lights().Lights().size();
@@ -124,12 +147,16 @@ void Solver::SolveCells()
   const std::vector<Medium::Block> blocks = this->Scene_.Smoke().Blocks(BlockEdge);
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
   std::atomic<std::size_t> told{0};
+  std::atomic<std::size_t> negligible{0};
   this->ForAll(blocks.size(), 1, 0.0, 0.8 * DirectShare,
     [&](std::size_t block)
     {
-      for (std::size_t light = 0; light < lights; ++light)
+      for (const std::size_t light : this->StrongestFirst(blocks[block]))
       {
-        told += this->Direct_.AddBlockFluence(light, blocks[block], sums);
+        const DirectLight::BlockWork work =
+          this->Direct_.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
+        told += work.Told;
+        negligible += work.Negligible;
       }
     });
   for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
@@ -142,6 +169,8 @@ void Solver::SolveCells()
   }
   this->Say("optical depths between cells and lights not walked", static_cast<double>(told),
     "neighbouring cells' ways tell them");
+  this->Say("direct light of cells not computed", static_cast<double>(negligible),
+    "bounds of the light after its way through the smoke lie below 1e-7 of other lights'");
 }
 
 void Solver::SolvePatches()
@@ -419,7 +448,7 @@ LightField Solver::Run()
   for (int band = 0; band < this->Field_.Bands; ++band)
   {
     int same = 0;
-    while (same < band && !this->BandsEqual(same, band))
+    while (same < band && !(this->Options_.Skips && this->BandsEqual(same, band)))
     {
       ++same;
     }
