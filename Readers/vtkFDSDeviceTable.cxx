@@ -28,8 +28,13 @@ std::string ReadText(const std::string& path)
 {
   std::error_code problem;
   const auto size = std::filesystem::file_size(path, problem);
-  std::ifstream stream(path, std::ios::binary);
-  if (problem || !stream)
+  std::ifstream stream;
+  // Only files have a size; a pipe in their place would wait for ever.
+  if (!problem)
+  {
+    stream.open(path, std::ios::binary);
+  }
+  if (!stream.is_open())
   {
     throw Error(path, "the device table cannot be opened", "Check its permissions");
   }

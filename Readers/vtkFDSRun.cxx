@@ -5,6 +5,7 @@
 #include "Errors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 namespace smokevis
@@ -100,7 +101,7 @@ double FDSRun::SceneTime(std::optional<double> asked, TimeInterpolation interpol
     return asked.value_or(index_->Times[0]);
   }
   const std::vector<double>& times = smoke_->Times();
-  if (!asked)
+  if (!asked || std::isnan(*asked))
   {
     return times.front();
   }

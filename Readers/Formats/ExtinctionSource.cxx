@@ -108,19 +108,28 @@ void ExtinctionSource::Choose()
       failures[key].push_back(error);
     }
   }
+  if (std::all_of(
+        terms_.begin(), terms_.end(), [](const std::vector<Term>& terms) { return terms.empty(); }))
+  {
+    throw failures.begin()->second.front();
+  }
+  // A crashed run, or one that was copied in part, is shown as far as it goes.
   for (const auto& [key, errors] : failures)
   {
     const std::vector<Term>& chosen = terms_[key.first];
-    if (std::none_of(chosen.begin(), chosen.end(),
-          [species = key.second](const Term& term) { return term.Field.Of().Species == species; }))
-    {
-      throw errors.front();
-    }
+    const bool lost = std::none_of(chosen.begin(), chosen.end(),
+      [species = key.second](const Term& term) { return term.Field.Of().Species == species; });
     for (const Error& error : errors)
     {
-      warnings_.push_back(
-        std::string("The next best source of smoke is used where this is missing: ") +
-        error.what());
+      warnings_.push_back((lost ? "SMOKE IS MISSING: mesh '" + index_.Meshes[key.first].Name +
+                                    "' is shown as if it had none" +
+                                    (key.second.empty() ? "" : " of " + key.second) + ". "
+                                : "The next best source of smoke is used where this is missing: ") +
+                          error.what());
+    }
+    if (lost)
+    {
+      lost_.insert(key);
     }
   }
 }
@@ -143,6 +152,10 @@ void ExtinctionSource::WarnOfGaps()
     {
       const auto last = std::find_if(terms_[mesh].rbegin(), terms_[mesh].rend(),
         [&one](const Term& term) { return term.Field.Of().Species == one; });
+      if (last == terms_[mesh].rend() && lost_.contains({static_cast<int>(mesh), one}))
+      {
+        continue; // the missing file was named
+      }
       if (last == terms_[mesh].rend())
       {
         warnings_.push_back("Mesh '" + name + "' has no 3-D output of the smoke" +
@@ -226,6 +239,11 @@ void ExtinctionSource::Describe()
         }
       }
     }
+  }
+  for (const auto& [mesh, species] : lost_)
+  {
+    text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name
+         << "': " << (species.empty() ? "smoke" : species) << " MISSING";
   }
   description_ = text.str();
   if (visibility)
@@ -341,20 +359,16 @@ void ExtinctionSource::Add(Term& term, const FrameMix& mix, const std::vector<un
     const auto weight = static_cast<float>(mix.Weight[part]);
     const bool scaled = of.Quantity != SmokeQuantity::Visibility && factor != 1.0F;
     const bool last = part + 1 == parts;
-    const bool changes = scaled || term.Density || !solid.empty() || mode.UsesCovered;
+    const bool changes = scaled || of.Quantity == SmokeQuantity::Visibility || term.Density ||
+                         !solid.empty() || mode.UsesCovered;
+    if (!changes && !mode.Sums && field.CopyFrame(frame, scratch.Values, sum))
+    {
+      continue;
+    }
     field.ForEachRow(frame, solid, scratch.Values, invert,
-      [&](std::size_t cell, int j, int k, const FieldRow& read)
+      [&](std::size_t cell, int j, int k, std::span<const float> row)
       {
         float* const target = sum.data() + cell;
-        if (!changes && !mode.Sums)
-        {
-          if (!read.CopyTo(target))
-          {
-            this->FailAt(field, frameTime, read.Values(), j, k);
-          }
-          return;
-        }
-        std::span<const float> row = read.Values();
         if (changes)
         {
           scratch.Row.resize(row.size());

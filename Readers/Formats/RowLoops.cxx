@@ -1,9 +1,13 @@
 #include "RowLoops.h"
 
+#include <cstring>
 #include <limits>
+#include <utility>
+#include <vector>
 
-// The loops are compiled twice: for every machine, and for those with registers of eight values.
-// They have no branch inside, so that the compiler takes several values at a time.
+// The loops are compiled twice: for every machine, with registers of four values, and for those of
+// eight. The last values of a row are handled together with some before them again, which gives the
+// same, rather than one by one.
 #define SMOKEVIS_INLINE inline __attribute__((always_inline))
 #ifdef __x86_64__
 #define SMOKEVIS_WIDE __attribute__((target("avx2")))
@@ -11,100 +15,159 @@
 #define SMOKEVIS_WIDE
 #endif
 
+// All of it is inlined: how registers of eight values would be handed over does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace smokevis
 {
 
 namespace
 {
 
-SMOKEVIS_INLINE int IsBad(float value)
+constexpr float Greatest = std::numeric_limits<float>::max();
+
+/// As many values as a register holds, and a mask for each of them.
+template <int Width> struct Lanes
 {
-  return static_cast<int>(!(value >= MostNegativeExtinction)) |
-         static_cast<int>(!(value <= std::numeric_limits<float>::max()));
+  typedef float Values __attribute__((vector_size(Width * sizeof(float))));
+  typedef int Marks __attribute__((vector_size(Width * sizeof(int))));
+};
+
+template <int Width> SMOKEVIS_INLINE typename Lanes<Width>::Values Load(const float* from)
+{
+  typename Lanes<Width>::Values values;
+  std::memcpy(&values, from, sizeof(values));
+  return values;
 }
 
-SMOKEVIS_INLINE float NotNegative(float value)
+template <int Width> SMOKEVIS_INLINE void Store(float* to, typename Lanes<Width>::Values values)
 {
-  return value > 0.0F ? value : 0.0F;
+  std::memcpy(to, &values, sizeof(values));
 }
 
-SMOKEVIS_INLINE float Mean(const float* before, const float* sums, std::size_t i)
+/// Extinction that is stored somewhere, and whether all of it can be such.
+template <int Width> class Checked
 {
-  return 0.125F * ((before[i] + before[i + 1]) + (sums[i] + sums[i + 1]));
-}
+public:
+  using Values = typename Lanes<Width>::Values;
 
-SMOKEVIS_INLINE void Sum(
-  const float* nearer, const float* farther, float* __restrict__ sums, std::size_t count)
-{
-  for (std::size_t i = 0; i < count; ++i)
+  SMOKEVIS_INLINE Values NotNegative(Values values)
   {
-    sums[i] = nearer[i] + farther[i];
+    bad_ |= ~((values >= MostNegativeExtinction) & (values <= Greatest));
+    const Values zero{};
+    return values > zero ? values : zero;
   }
-}
 
-SMOKEVIS_INLINE void Means(
-  const float* before, const float* sums, float* __restrict__ means, std::size_t cells)
-{
-  for (std::size_t i = 0; i < cells; ++i)
+  SMOKEVIS_INLINE bool Good() const
   {
-    means[i] = Mean(before, sums, i);
+    int any = 0;
+    for (int i = 0; i < Width; ++i)
+    {
+      any |= bad_[i];
+    }
+    return any == 0;
   }
+
+private:
+  typename Lanes<Width>::Marks bad_{};
+};
+
+/// The place after @p i in steps of Width; the last step ends at @p count, which is at least Width.
+template <int Width> SMOKEVIS_INLINE std::size_t Next(std::size_t i, std::size_t count)
+{
+  const std::size_t next = i + Width;
+  return next + Width <= count || next >= count ? next : count - Width;
 }
 
+template <int Width>
+SMOKEVIS_INLINE bool CopyRows(const StoredRows& cells, float* target, std::size_t targetStride)
+{
+  Checked<Width> checked;
+  const float* row = cells.First;
+  for (std::size_t j = 0; j < cells.Rows; ++j, row += cells.Stride, target += targetStride)
+  {
+    for (std::size_t i = 0; i < cells.Cells; i = Next<Width>(i, cells.Cells))
+    {
+      Store<Width>(target + i, checked.NotNegative(Load<Width>(row + i)));
+    }
+  }
+  return checked.Good();
+}
+
+/// The sums of four nodes each: two neighbours in a row, and those above them.
+template <int Width>
+SMOKEVIS_INLINE typename Lanes<Width>::Values SumOfFour(const float* nodes, std::size_t layer)
+{
+  return (Load<Width>(nodes) + Load<Width>(nodes + layer)) +
+         (Load<Width>(nodes + 1) + Load<Width>(nodes + layer + 1));
+}
+
+template <int Width>
 SMOKEVIS_INLINE bool CopyMeans(
-  const float* before, const float* sums, float* __restrict__ target, std::size_t cells)
+  const StoredRows& nodes, float* target, std::size_t targetStride, float* before, float* after)
 {
-  int bad = 0;
-  for (std::size_t i = 0; i < cells; ++i)
+  Checked<Width> checked;
+  const float* row = nodes.First;
+  for (std::size_t i = 0; i < nodes.Cells; i = Next<Width>(i, nodes.Cells))
   {
-    const float value = Mean(before, sums, i);
-    bad |= IsBad(value);
-    target[i] = NotNegative(value);
+    Store<Width>(before + i, SumOfFour<Width>(row + i, nodes.Layer));
   }
-  return bad == 0;
+  for (std::size_t j = 0; j < nodes.Rows; ++j, target += targetStride)
+  {
+    row += nodes.Stride;
+    for (std::size_t i = 0; i < nodes.Cells; i = Next<Width>(i, nodes.Cells))
+    {
+      const typename Lanes<Width>::Values sum = SumOfFour<Width>(row + i, nodes.Layer);
+      Store<Width>(after + i, sum);
+      Store<Width>(target + i, checked.NotNegative(0.125F * (Load<Width>(before + i) + sum)));
+    }
+    std::swap(before, after);
+  }
+  return checked.Good();
 }
 
-SMOKEVIS_INLINE bool Copy(const float* values, float* __restrict__ target, std::size_t count)
+template <int Width>
+SMOKEVIS_INLINE void Means(
+  const float* row, std::size_t stride, std::size_t layer, float* means, std::size_t cells)
 {
-  int bad = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < cells; i = Next<Width>(i, cells))
   {
-    bad |= IsBad(values[i]);
-    target[i] = NotNegative(values[i]);
+    Store<Width>(means + i,
+      0.125F * (SumOfFour<Width>(row + i, layer) + SumOfFour<Width>(row + stride + i, layer)));
   }
-  return bad == 0;
 }
 
+// Each value once: no step may reach back.
 SMOKEVIS_INLINE bool Add(
   const float* values, float weight, float* __restrict__ target, std::size_t count)
 {
-  int bad = 0;
+  bool good = true;
   for (std::size_t i = 0; i < count; ++i)
   {
-    bad |= IsBad(values[i]);
-    target[i] += weight * NotNegative(values[i]);
+    good &= (values[i] >= MostNegativeExtinction) & (values[i] <= Greatest);
+    target[i] += weight * (values[i] > 0.0F ? values[i] : 0.0F);
   }
-  return bad == 0;
+  return good;
 }
 
-SMOKEVIS_WIDE void WideSum(const float* a, const float* b, float* sums, std::size_t count)
+constexpr int WideWidth = 8;
+constexpr int PlainWidth = 4;
+
+SMOKEVIS_WIDE bool WideCopyRows(const StoredRows& cells, float* target, std::size_t targetStride)
 {
-  Sum(a, b, sums, count);
+  return CopyRows<WideWidth>(cells, target, targetStride);
 }
 
-SMOKEVIS_WIDE void WideMeans(const float* a, const float* b, float* means, std::size_t cells)
+SMOKEVIS_WIDE bool WideCopyMeans(
+  const StoredRows& nodes, float* target, std::size_t targetStride, float* before, float* after)
 {
-  Means(a, b, means, cells);
+  return CopyMeans<WideWidth>(nodes, target, targetStride, before, after);
 }
 
-SMOKEVIS_WIDE bool WideCopyMeans(const float* a, const float* b, float* target, std::size_t cells)
+SMOKEVIS_WIDE void WideMeans(
+  const float* row, std::size_t stride, std::size_t layer, float* means, std::size_t cells)
 {
-  return CopyMeans(a, b, target, cells);
-}
-
-SMOKEVIS_WIDE bool WideCopy(const float* values, float* target, std::size_t count)
-{
-  return Copy(values, target, count);
+  Means<WideWidth>(row, stride, layer, means, cells);
 }
 
 SMOKEVIS_WIDE bool WideAdd(const float* values, float weight, float* target, std::size_t count)
@@ -112,14 +175,15 @@ SMOKEVIS_WIDE bool WideAdd(const float* values, float weight, float* target, std
   return Add(values, weight, target, count);
 }
 
-bool IsWide()
+// How many values are taken at a time in rows of that many cells.
+int WidthFor(std::size_t cells)
 {
 #ifdef __x86_64__
   static const bool wide = __builtin_cpu_supports("avx2") != 0;
-  return wide;
 #else
-  return false;
+  static const bool wide = false;
 #endif
+  return wide && cells >= WideWidth ? WideWidth : cells >= PlainWidth ? PlainWidth : 1;
 }
 
 } // namespace
@@ -127,42 +191,67 @@ bool IsWide()
 //------------------------------------------------------------------------------------------------
 bool IsExtinction(float value)
 {
-  return IsBad(value) == 0;
+  return value >= MostNegativeExtinction && value <= Greatest;
 }
 
 //------------------------------------------------------------------------------------------------
-void AddRows(const float* nearer, const float* farther, std::span<float> sums)
+void MeansOfNodes(const float* row, std::size_t stride, std::size_t layer, std::span<float> means)
 {
-  IsWide() ? WideSum(nearer, farther, sums.data(), sums.size())
-           : Sum(nearer, farther, sums.data(), sums.size());
-}
-
-//------------------------------------------------------------------------------------------------
-void MeansOfNodes(const float* before, const float* sums, std::span<float> means)
-{
-  IsWide() ? WideMeans(before, sums, means.data(), means.size())
-           : Means(before, sums, means.data(), means.size());
-}
-
-//------------------------------------------------------------------------------------------------
-bool CopyExtinctionOfNodes(const float* before, const float* sums, std::size_t cells, float* target)
-{
-  return IsWide() ? WideCopyMeans(before, sums, target, cells)
-                  : CopyMeans(before, sums, target, cells);
+  switch (WidthFor(means.size()))
+  {
+  case WideWidth:
+    WideMeans(row, stride, layer, means.data(), means.size());
+    break;
+  case PlainWidth:
+    Means<PlainWidth>(row, stride, layer, means.data(), means.size());
+    break;
+  default:
+    Means<1>(row, stride, layer, means.data(), means.size());
+  }
 }
 
 //------------------------------------------------------------------------------------------------
 bool CopyExtinction(std::span<const float> values, float* target)
 {
-  return IsWide() ? WideCopy(values.data(), target, values.size())
-                  : Copy(values.data(), target, values.size());
+  return CopyExtinction({values.data(), 0, 0, values.size(), 1}, target, 0);
+}
+
+//------------------------------------------------------------------------------------------------
+bool CopyExtinction(const StoredRows& cells, float* target, std::size_t targetStride)
+{
+  switch (WidthFor(cells.Cells))
+  {
+  case WideWidth:
+    return WideCopyRows(cells, target, targetStride);
+  case PlainWidth:
+    return CopyRows<PlainWidth>(cells, target, targetStride);
+  default:
+    return CopyRows<1>(cells, target, targetStride);
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+bool CopyExtinctionOfNodes(const StoredRows& nodes, float* target, std::size_t targetStride)
+{
+  std::vector<float> before(nodes.Cells);
+  std::vector<float> after(nodes.Cells);
+  switch (WidthFor(nodes.Cells))
+  {
+  case WideWidth:
+    return WideCopyMeans(nodes, target, targetStride, before.data(), after.data());
+  case PlainWidth:
+    return CopyMeans<PlainWidth>(nodes, target, targetStride, before.data(), after.data());
+  default:
+    return CopyMeans<1>(nodes, target, targetStride, before.data(), after.data());
+  }
 }
 
 //------------------------------------------------------------------------------------------------
 bool AddExtinction(std::span<const float> values, float weight, float* target)
 {
-  return IsWide() ? WideAdd(values.data(), weight, target, values.size())
-                  : Add(values.data(), weight, target, values.size());
+  return WidthFor(values.size()) == WideWidth
+           ? WideAdd(values.data(), weight, target, values.size())
+           : Add(values.data(), weight, target, values.size());
 }
 
 } // namespace smokevis

@@ -197,10 +197,16 @@ void Smoke3DFile::IndexFrames()
 //------------------------------------------------------------------------------------------------
 void Smoke3DFile::ReadGreatestDensities(const std::string& path)
 {
-  std::ifstream stream(path);
+  // A pipe or a device in its place might never end.
+  std::error_code problem;
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(path, problem))
+  {
+    stream.open(path);
+  }
   std::string line;
   // The first line is the version; then one line a frame.
-  if (!std::getline(stream, line))
+  if (!stream.is_open() || !std::getline(stream, line))
   {
     throw Error(path,
       "the text file with the greatest densities of " + records_.Path() + " cannot be read",

@@ -142,7 +142,7 @@ struct SmvDevice
 {
   std::string Name;
   std::string Quantity;
-  /// [m]
+  /// [m]; not numbers where they did not fit into the index.
   std::array<double, 3> Position{};
 };
 

@@ -294,8 +294,21 @@ void SmvParser::ParseDevice()
   const std::string_view line = this->Next();
   device.Name = std::string(Trim(Before(line, '%')));
   device.Quantity = std::string(Trim(After(line, '%')));
-  const auto numbers = this->NextNumbers(3, "device position");
-  std::copy_n(numbers.begin(), 3, device.Position.begin());
+  // Fortran writes asterisks for numbers that are wider than their field, as map coordinates are.
+  const std::string_view place = this->Next();
+  const auto numbers = SplitNumbers(place);
+  if (numbers.size() >= 3)
+  {
+    std::copy_n(numbers.begin(), 3, device.Position.begin());
+  }
+  else if (place.find('*') != std::string_view::npos)
+  {
+    device.Position.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+  else
+  {
+    this->Fail("expected 3 numbers (device position)");
+  }
   index_.Devices.push_back(std::move(device));
 }
 

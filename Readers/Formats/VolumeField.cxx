@@ -81,6 +81,29 @@ void VolumeField::ReadFrame(
 }
 
 //------------------------------------------------------------------------------------------------
+std::size_t VolumeField::CellAt(int j, int k) const
+{
+  return (static_cast<std::size_t>(k) * mesh_.Cells(1) + j) * mesh_.Cells(0) + of_.Range[0];
+}
+
+//------------------------------------------------------------------------------------------------
+bool VolumeField::CopyFrame(std::size_t frame, std::vector<float>& scratch, std::span<float> cells)
+{
+  const auto stride = static_cast<std::size_t>(mesh_.Cells(0));
+  bool good = true;
+  this->ForEachLayer(
+    frame, {}, scratch, [](std::span<float>) {},
+    [&](int k, const StoredRows& rows)
+    {
+      float* const target = cells.data() + this->CellAt(of_.Range[2], k);
+      good = (of_.CellCentred ? CopyExtinction(rows, target, stride)
+                              : CopyExtinctionOfNodes(rows, target, stride)) &&
+             good;
+    });
+  return good;
+}
+
+//------------------------------------------------------------------------------------------------
 double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
   const std::vector<unsigned char>& solid, std::vector<float>& scratch, std::span<float> cells)
 {
@@ -90,9 +113,8 @@ double VolumeField::ReadCells(double time, TimeInterpolation interpolation,
     const auto weight = static_cast<float>(mix.Weight[part]);
     this->ForEachRow(
       mix.Frame[part], solid, scratch, [](std::span<float>) {},
-      [&](std::size_t cell, int, int, const FieldRow& read)
+      [&](std::size_t cell, int, int, std::span<const float> row)
       {
-        const std::span<const float> row = read.Values();
         for (std::size_t i = 0; i < row.size(); ++i)
         {
           if (solid.empty() || solid[cell + i] == 0)

@@ -16,47 +16,6 @@
 namespace smokevis
 {
 
-/// A row of cells along x, as it is read.
-class FieldRow
-{
-public:
-  /// Of cells.
-  explicit FieldRow(std::span<const float> values) : values_(values) {}
-
-  /// Of nodes: sums of two rows each in front and behind, of a row of nodes below and the one
-  /// above.
-  FieldRow(const float* before, const float* sums, std::span<float> space)
-      : before_(before), sums_(sums), space_(space)
-  {
-  }
-
-  std::size_t size() const { return before_ ? space_.size() : values_.size(); }
-
-  /// A value a cell.
-  std::span<const float> Values() const
-  {
-    if (!before_)
-    {
-      return values_;
-    }
-    MeansOfNodes(before_, sums_, space_);
-    return space_;
-  }
-
-  /// CopyExtinction() of Values(), in one go.
-  bool CopyTo(float* target) const
-  {
-    return before_ ? CopyExtinctionOfNodes(before_, sums_, space_.size(), target)
-                   : CopyExtinction(values_, target);
-  }
-
-private:
-  std::span<const float> values_;
-  const float* before_ = nullptr;
-  const float* sums_ = nullptr;
-  std::span<float> space_;
-};
-
 /// A candidate with its files open. One thread at a time may read it.
 class VolumeField
 {
@@ -71,16 +30,20 @@ public:
   const FrameTimes& Times() const { return times_; }
 
   /// Reads a frame and calls visit(cell, j, k, row) for each row of cells of the range, where cell
-  /// is the number of the first and row the FieldRow of all; a cell gets the mean of its eight
-  /// nodes. FDS gives a node the mean over its gas cells, and 0 without any; all eight nodes of a
-  /// gas cell have one: the cell itself. Of 8-bit smoke, where FDS averaged solid cells in as clear
-  /// ones, they are taken out again.
+  /// is the number of the first and row the values of all; a cell gets the mean of its eight nodes.
+  /// FDS gives a node the mean over its gas cells, and 0 without any; all eight nodes of a gas cell
+  /// have one: the cell itself. Of 8-bit smoke, where FDS averaged solid cells in as clear ones,
+  /// they are taken out again.
   /// @param solid   marks the mesh's solid cells; empty for none
   /// @param scratch working space
   /// @param prepare prepare(values) may change the values that the file has first
   template <class Prepare, class Visit>
   void ForEachRow(std::size_t frame, const std::vector<unsigned char>& solid,
     std::vector<float>& scratch, Prepare&& prepare, Visit&& visit);
+
+  /// ForEachRow() and CopyExtinction() in one, for a mesh without solids: the fastest way. Returns
+  /// false, with some cells not set, where a value can be no extinction coefficient.
+  bool CopyFrame(std::size_t frame, std::vector<float>& scratch, std::span<float> cells);
 
   /// Sets the cells that the field covers to its values at @p time; leaves solids and others alone.
   /// @p scratch is working space. Returns the time that the values are of.
@@ -91,9 +54,14 @@ private:
   void ReadFrame(
     std::size_t frame, const std::vector<unsigned char>& solid, std::vector<float>& values);
 
-  /// Visits the rows of layers [begin, end); @p first is the first value of the first of them.
-  template <class Visit>
-  void VisitLayers(int begin, int end, const float* first, Visit&& visit) const;
+  /// Reads a frame part by part and calls visit(k, rows) for each layer of cells.
+  /// @param solid, scratch, prepare as for ForEachRow()
+  template <class Prepare, class Visit>
+  void ForEachLayer(std::size_t frame, const std::vector<unsigned char>& solid,
+    std::vector<float>& scratch, Prepare&& prepare, Visit&& visit);
+
+  /// The number of the first cell of a row of the range.
+  std::size_t CellAt(int j, int k) const;
 
   const SmvMesh& mesh_;
   SmokeCandidate of_;
@@ -103,7 +71,7 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <class Prepare, class Visit>
-void VolumeField::ForEachRow(std::size_t frame, const std::vector<unsigned char>& solid,
+void VolumeField::ForEachLayer(std::size_t frame, const std::vector<unsigned char>& solid,
   std::vector<float>& scratch, Prepare&& prepare, Visit&& visit)
 {
   const IndexRange& r = of_.Range;
@@ -114,67 +82,66 @@ void VolumeField::ForEachRow(std::size_t frame, const std::vector<unsigned char>
   // What is stored before the first value that is used, in a layer and of layers.
   const std::size_t surplus = (stored[1] - used[1]) * stride + (stored[0] - used[0]);
   const auto ghosts = static_cast<std::size_t>(stored[2] - used[2]);
+  StoredRows rows;
+  rows.Stride = stride;
+  rows.Layer = layer;
+  rows.Cells = static_cast<std::size_t>(r[1] - r[0]);
+  rows.Rows = static_cast<std::size_t>(r[3] - r[2]);
   if (!file_->ReadsParts())
   {
     this->ReadFrame(frame, solid, scratch);
     prepare(std::span<float>(scratch));
-    this->VisitLayers(r[4], r[5], scratch.data() + ghosts * layer + surplus, visit);
+    rows.First = scratch.data() + ghosts * layer + surplus;
+    for (int k = r[4]; k < r[5]; ++k, rows.First += layer)
+    {
+      visit(k, rows);
+    }
     return;
   }
-  // Cells need each layer once; of nodes, the last of a part is the first of the next again.
-  const std::size_t partBytes = of_.CellCentred ? 64 << 10 : 96 << 10;
+  // Parts stay in a processor's own cache, which holds half a megabyte or more. Cells need each
+  // layer once; of nodes, the last of a part is the first of the next again.
+  constexpr std::size_t partBytes = 256 << 10;
   const std::size_t shared = of_.CellCentred ? 0 : layer;
   const int layers = static_cast<int>(std::max<std::size_t>(partBytes / sizeof(float) / layer, 1));
+  scratch.resize(std::max(scratch.size(), layers * layer + shared));
   for (int begin = r[4]; begin < r[5]; begin += layers)
   {
     const int end = std::min(begin + layers, r[5]);
     const std::size_t kept = begin == r[4] ? 0 : shared;
-    std::copy(scratch.end() - static_cast<std::ptrdiff_t>(kept), scratch.end(), scratch.begin());
-    scratch.resize((end - begin) * layer + shared);
-    const std::span<float> fresh = std::span<float>(scratch).subspan(kept);
+    std::copy_n(scratch.data() + layers * layer, kept, scratch.data());
+    const std::span<float> fresh(scratch.data() + kept, (end - begin) * layer + shared - kept);
     file_->ReadPart(frame, (begin - r[4] + ghosts) * layer + kept, fresh);
     prepare(fresh);
-    this->VisitLayers(begin, end, scratch.data() + surplus, visit);
+    rows.First = scratch.data() + surplus;
+    for (int k = begin; k < end; ++k, rows.First += layer)
+    {
+      visit(k, rows);
+    }
   }
   file_->CloseParts();
 }
 
 //------------------------------------------------------------------------------------------------
-template <class Visit>
-void VolumeField::VisitLayers(int begin, int end, const float* first, Visit&& visit) const
+template <class Prepare, class Visit>
+void VolumeField::ForEachRow(std::size_t frame, const std::vector<unsigned char>& solid,
+  std::vector<float>& scratch, Prepare&& prepare, Visit&& visit)
 {
-  const IndexRange& r = of_.Range;
-  const auto nx = static_cast<std::size_t>(mesh_.Cells(0));
-  const auto ny = static_cast<std::size_t>(mesh_.Cells(1));
-  const auto stride = static_cast<std::size_t>(file_->StoredDimensions()[0]);
-  const std::size_t layer = stride * static_cast<std::size_t>(file_->StoredDimensions()[1]);
-  const auto length = static_cast<std::size_t>(r[1] - r[0]);
-  // Of nodes: sums over two layers, of a row of nodes and of the next one, and the cells' means.
-  std::vector<float> low(length + 1);
-  std::vector<float> high(length + 1);
-  std::vector<float> means(length);
-  for (int k = begin; k < end; ++k)
-  {
-    const float* row = first + (k - begin) * layer;
-    if (!of_.CellCentred)
+  std::vector<float> means(of_.CellCentred ? 0 : of_.Range[1] - of_.Range[0]);
+  this->ForEachLayer(frame, solid, scratch, prepare,
+    [&](int k, const StoredRows& rows)
     {
-      AddRows(row, row + layer, high);
-    }
-    for (int j = r[2]; j < r[3]; ++j)
-    {
-      const std::size_t cell = (static_cast<std::size_t>(k) * ny + j) * nx + r[0];
-      if (of_.CellCentred)
+      const float* row = rows.First;
+      for (int j = of_.Range[2]; j < of_.Range[3]; ++j, row += rows.Stride)
       {
-        visit(cell, j, k, FieldRow({row, length}));
-        row += stride;
-        continue;
+        if (!of_.CellCentred)
+        {
+          MeansOfNodes(row, rows.Stride, rows.Layer, means);
+        }
+        visit(this->CellAt(j, k), j, k,
+          of_.CellCentred ? std::span<const float>(row, rows.Cells)
+                          : std::span<const float>(means));
       }
-      row += stride;
-      low.swap(high);
-      AddRows(row, row + layer, high);
-      visit(cell, j, k, FieldRow(low.data(), high.data(), means));
-    }
-  }
+    });
 }
 
 } // namespace smokevis

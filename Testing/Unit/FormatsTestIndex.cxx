@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -188,6 +189,18 @@ TEST(SmvFile, NamesWhatIsWrong)
   test::Index surface;
   surface.Mesh("m", {1, 1, 1}, {0, 0, 0}, {1, 1, 1}).Obstruction({0, 1, 0, 1, 0, 1}, 17);
   EXPECT_THAT(with(surface), HasSubstr("surface number 17 of 6"));
+}
+
+TEST(SmvFile, ADevicesPlaceMayBeTooWideForItsField)
+{
+  test::Folder folder("wide");
+  const std::string text = OneMesh().Text("").Bytes();
+  const SmvFile index(folder.Write(
+    "a.smv", text + "DEVICE\n far % TEMPERATURE\n************     1.50000     2.00000 0 0 0 0 0\n" +
+               "DEVICE\n near % TEMPERATURE\n     0.50000     1.50000     2.00000 0 0 0 0 0\n"));
+  const std::size_t last = index.Devices.size() - 1;
+  EXPECT_TRUE(std::isnan(index.Devices.at(last - 1).Position[0]));
+  EXPECT_EQ(index.Devices.at(last).Position[2], 2.0);
 }
 
 TEST(SmvFile, ChangesOfWhatIsNotThereAreLeftOut)

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <sys/stat.h>
 
 using testing::Each;
 using testing::ElementsAre;
@@ -145,6 +146,22 @@ TEST(Smoke3DFile, FramesWithoutAGreatestDensityAreLeftOut)
   const Smoke3DFile smoke(path, Nodes, 0.5);
   EXPECT_THAT(smoke.FrameTimes(), ElementsAre(0.0));
   EXPECT_THAT(smoke.Damage(), HasSubstr("frame 2"));
+}
+
+TEST(Smoke3DFile, APipeInPlaceOfTheGreatestDensitiesIsNotWaitedFor)
+{
+  test::Folder folder("pipe");
+  const std::string path = folder.Write("a.s3d", Smoke(1, {Coded}));
+  ASSERT_EQ(::mkfifo(folder.Path("a.s3d.sz").c_str(), 0600), 0);
+  try
+  {
+    Smoke3DFile(path, Nodes, 0.5);
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("a.s3d.sz: the text file with the greatest densities"));
+  }
 }
 
 TEST(Smoke3DFile, AnyCutOrFlippedByteIsReadOrRefused)
