@@ -34,7 +34,7 @@ namespace smokevis
 {
 struct FloorMapOptions;
 class View;
-}
+} // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
 {
