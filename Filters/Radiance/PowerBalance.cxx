@@ -53,9 +53,41 @@ PowerBalance::PowerBalance(const Scene& scene, const LineSweep& sweep, int band)
 {
 }
 
-double PowerBalance::Scale(const BatchState& batch) const
+PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<BatchState>& batches) const
 {
-  const double loss = this->Sweep_.Loss(batch);
+  Scales scales;
+  double loss = 0.0;
+  double sent = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  double scaledSum = 0.0;
+  double scaledSquares = 0.0;
+  for (const BatchState& batch : batches)
+  {
+    const double own = this->Sweep_.Loss(batch);
+    const double later = this->Sweep_.LaterSource(batch);
+    scales.Own.push_back(this->ScaleFor(own));
+    loss += own;
+    sent += this->Source_ + later;
+    const double scaled = later * scales.Own.back();
+    sum += later;
+    squares += later * later;
+    scaledSum += scaled;
+    scaledSquares += scaled * scaled;
+  }
+  scales.Agree = scaledSquares * sum * sum < squares * scaledSum * scaledSum;
+  scales.Common = this->ScaleFor(loss / static_cast<double>(batches.size()));
+  if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses_)
+  {
+    throw Error("light field",
+      "hardly any light is lost anywhere, so that it would grow nearly without end",
+      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+  }
+  return scales;
+}
+
+double PowerBalance::ScaleFor(double loss) const
+{
   return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : LargestScale;
 }
 
@@ -65,21 +97,12 @@ void PowerBalance::ScaleLatest(std::vector<BatchState>& batches) const
   {
     return;
   }
-  double loss = 0.0;
-  double sent = 0.0;
-  for (BatchState& batch : batches)
+  const Scales scales = this->ScalesOf(batches);
+  for (std::size_t i = 0; i < batches.size(); ++i)
   {
-    loss += this->Sweep_.Loss(batch);
-    sent += this->Source_ + this->Sweep_.LaterSource(batch);
-    const double scale = this->Scale(batch);
-    Multiply(batch.Fluence, scale);
-    Multiply(batch.Illuminance, scale);
-  }
-  if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses_)
-  {
-    throw Error("light field",
-      "hardly any light is lost anywhere, so that it would grow nearly without end",
-      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+    const double scale = scales.Agree ? scales.Own[i] : scales.Common;
+    Multiply(batches[i].Fluence, scale);
+    Multiply(batches[i].Illuminance, scale);
   }
 }
 
@@ -89,28 +112,11 @@ void PowerBalance::ScaleSums(std::vector<BatchState>& batches) const
   {
     return;
   }
-  std::vector<double> scales;
-  double sum = 0.0;
-  double squares = 0.0;
-  double scaledSum = 0.0;
-  double scaledSquares = 0.0;
-  for (const BatchState& batch : batches)
+  const Scales scales = this->ScalesOf(batches);
+  for (std::size_t i = 0; i < batches.size() && scales.Agree; ++i)
   {
-    scales.push_back(this->Scale(batch));
-    const double later = this->Sweep_.LaterSource(batch);
-    const double scaled = later * scales.back();
-    sum += later;
-    squares += later * later;
-    scaledSum += scaled;
-    scaledSquares += scaled * scaled;
-  }
-  if (scaledSquares * sum * sum < squares * scaledSum * scaledSum)
-  {
-    for (std::size_t i = 0; i < batches.size(); ++i)
-    {
-      Multiply(batches[i].FluenceSum, scales[i]);
-      Multiply(batches[i].IlluminanceSum, scales[i]);
-    }
+    Multiply(batches[i].FluenceSum, scales.Own[i]);
+    Multiply(batches[i].IlluminanceSum, scales.Own[i]);
   }
 }
 
