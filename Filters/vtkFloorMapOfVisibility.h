@@ -34,7 +34,7 @@ namespace smokevis
 {
 struct FloorMapOptions;
 class View;
-}
+} // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkFloorMapOfVisibility : public vtkImageAlgorithm
 {
@@ -96,7 +96,7 @@ public:
 
   ///@{
   /**
-   * Equivalent luminance of the observer's own noise [cd/m2], from 0; 0 for plain contrast.
+   * Equivalent luminance of the observer's own noise [cd/m2], 0 to 1e12; 0 for plain contrast.
    * Default: 0.1.
    */
   vtkSetMacro(DarkLuminance, double);
@@ -114,7 +114,7 @@ public:
 
   ///@{
   /**
-   * Smallest angle that the observer resolves [minutes of arc], from 0; finer detail is averaged.
+   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is averaged.
    * Default: 1.
    */
   vtkSetMacro(Acuity, double);

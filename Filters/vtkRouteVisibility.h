@@ -124,7 +124,7 @@ public:
 
   ///@{
   /**
-   * Equivalent luminance of the observer's own noise [cd/m2], from 0. Default: 0.1.
+   * Equivalent luminance of the observer's own noise [cd/m2], 0 to 1e12. Default: 0.1.
    */
   vtkSetMacro(DarkLuminance, double);
   vtkGetMacro(DarkLuminance, double);
@@ -132,7 +132,7 @@ public:
 
   ///@{
   /**
-   * Smallest angle that the observer resolves [minutes of arc], from 0. Default: 1.
+   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800. Default: 1.
    */
   vtkSetMacro(Acuity, double);
   vtkGetMacro(Acuity, double);

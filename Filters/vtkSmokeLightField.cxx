@@ -195,6 +195,7 @@ struct vtkSmokeLightField::Internals
   {
     SceneBlocks Blocks;
     double Tolerance = 0.0;
+    bool Skips = true;
     int Seed = 0;
     int Bands = 0;
   };
@@ -319,6 +320,7 @@ void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
                           : "shapes are new"});
   smokevis::LightFieldOptions solver;
   solver.Tolerance = this->Tolerance;
+  solver.Skips = this->SkipNeedlessWork;
   solver.Seed = static_cast<std::uint64_t>(this->Seed);
   // TBB warns on the console about threads that the machine does not have.
   solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
@@ -429,7 +431,8 @@ void vtkSmokeLightField::Solve(
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
   }
   Internals::SolvedLight& last = this->Implementation->Solved;
-  if (last.Tolerance == this->Tolerance && last.Seed == this->Seed && last.Bands == this->Bands &&
+  if (last.Tolerance == this->Tolerance && last.Skips == this->SkipNeedlessWork &&
+      last.Seed == this->Seed && last.Bands == this->Bands &&
       this->Implementation->Scenes.IsLast(description) &&
       smokevis::ShareLightField(last.Blocks, blocks))
   {
@@ -440,7 +443,7 @@ void vtkSmokeLightField::Solve(
   {
     last = {};
     this->SolveBlocks(std::move(description), blocks, report);
-    last = {blocks, this->Tolerance, this->Seed, this->Bands};
+    last = {blocks, this->Tolerance, this->SkipNeedlessWork, this->Seed, this->Bands};
   }
 
   output->SetNumberOfPartitionedDataSets(3);
@@ -556,6 +559,7 @@ void vtkSmokeLightField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DefaultReflectance: " << this->DefaultReflectance << "\n";
   os << indent << "SkyLuminance: " << this->SkyLuminance << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "SkipNeedlessWork: " << this->SkipNeedlessWork << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "PatchSize: " << this->PatchSize << "\n";
   os << indent << "Threads: " << this->Threads << "\n";

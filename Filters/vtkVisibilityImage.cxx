@@ -58,6 +58,9 @@ constexpr double BlurredPixelBytes = 140.0;
 /// Threshold of observers and its spread, for the share of them who see the sign.
 constexpr double Threshold = 0.2;
 constexpr double ThresholdSpread = 0.04;
+constexpr double LargestMargin = 1000.0;
+/// Lenses in air end at 0.5.
+constexpr double SmallestFNumber = 0.1;
 constexpr std::size_t NoSign = static_cast<std::size_t>(-1);
 
 using smokevis::Error;
@@ -276,8 +279,10 @@ void vtkVisibilityImage::CheckProperties() const
   check(positive(this->FocalLength), "FocalLength", "it is not positive", "Give it in mm");
   check(positive(this->SensorSize[0]) && positive(this->SensorSize[1]), "SensorSize",
     "it is not positive", "Give it in mm");
-  check(positive(this->FNumber), "FNumber", "it is not positive", "Give 2.8, for example");
-  check(notNegative(this->Margin), "Margin", "it is negative", "Give a share from 0");
+  check(this->FNumber >= SmallestFNumber && std::isfinite(this->FNumber), "FNumber",
+    "it is less than 0.1", "Give 2.8, for example; no lens is below 0.5");
+  check(this->Margin >= 0.0 && this->Margin <= LargestMargin, "Margin", "it is not from 0 to 1000",
+    "Give a share of the sign's size");
   check(this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
   check(notNegative(this->FocusDistance), "FocusDistance", "it is negative",
     "Give metres from the sensor, or 0 for infinity");

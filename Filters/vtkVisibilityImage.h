@@ -121,7 +121,7 @@ public:
 
   ///@{
   /**
-   * Focal length over aperture, above 0. Counts for photograph, blur and SensorIlluminance;
+   * Focal length over aperture, from 0.1. Counts for photograph, blur and SensorIlluminance;
    * luminance does not depend on it. Default: 2.8.
    */
   vtkSetMacro(FNumber, double);
@@ -227,7 +227,7 @@ public:
 
   ///@{
   /**
-   * Free border around a target sign, as a share of its size on each side, from 0. Default: 0.
+   * Free border around a target sign, as a share of its size on each side, 0 to 1000. Default: 0.
    */
   vtkSetMacro(Margin, double);
   vtkGetMacro(Margin, double);
@@ -235,7 +235,7 @@ public:
 
   ///@{
   /**
-   * Equivalent luminance of the observer's own noise [cd/m2], from 0. Default: 0.1.
+   * Equivalent luminance of the observer's own noise [cd/m2], 0 to 1e12. Default: 0.1.
    */
   vtkSetMacro(DarkLuminance, double);
   vtkGetMacro(DarkLuminance, double);
@@ -243,7 +243,7 @@ public:
 
   ///@{
   /**
-   * Smallest angle that the observer resolves [minutes of arc], from 0; finer detail is averaged.
+   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is averaged.
    * Default: 1.
    */
   vtkSetMacro(Acuity, double);

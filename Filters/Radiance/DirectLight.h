@@ -30,12 +30,21 @@ public:
     std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
   /// Mean fluence over a smoke cell [lx].
   Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
+  /// How the cells of a block came by a light's fluence.
+  struct BlockWork
+  {
+    /// Their ways were told by others'.
+    std::size_t Told = 0;
+    /// They were left out: the light adds less there than single precision shows.
+    std::size_t Negligible = 0;
+  };
   /// Adds a light's mean fluence in the cells of a block [lx]. Ways from afar to neighbouring cells
   /// are much the same: where a few of them tell the rest, they do.
-  /// @param sums of all cells of the smoke
-  /// @return the number of cells whose ways were told by others'
-  std::size_t AddBlockFluence(
-    std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const;
+  /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
+  /// sums hold bounds what is negligible
+  /// @param skips whether ways are told and negligible lights left out
+  BlockWork AddBlockFluence(
+    std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
@@ -101,6 +110,10 @@ private:
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
   /// Mean extinction between the cells of a block and a light: linear between the corners of the
   /// block; none where that does not hold.
+  /// Whether a light adds next to nothing to what all cells of a block already hold.
+  /// @param ways mean extinctions along the ways to the block's corners
+  bool Negligible(const LightGroup& root, const Medium::Block& block,
+    const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const;
   std::optional<std::array<double, 8>> BlockWays(
     const LightGroup& root, const Medium::Block& block) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,

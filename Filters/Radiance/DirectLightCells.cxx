@@ -19,6 +19,9 @@ constexpr int SmallestBlock = 4;
 constexpr double WayTolerance = 0.004;
 constexpr std::array<std::array<double, 3>, 3> WayChecks = {
   {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
+/// Share of the fluence of the other lights that all lights left out may add: single precision
+/// does not show it.
+constexpr double NegligibleShare = 1e-7;
 /// A box as large as this share of its distance to the light is split.
 constexpr double BoxRatio = 0.5;
 constexpr int BoxSplits = 3;
@@ -163,16 +166,63 @@ std::optional<std::array<double, 8>> DirectLight::BlockWays(
   return ways;
 }
 
-std::size_t DirectLight::AddBlockFluence(
-  std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const
+bool DirectLight::Negligible(const LightGroup& root, const Medium::Block& block,
+  const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const
+{
+  if (root.Law.Measured())
+  {
+    return false;
+  }
+  const Medium& smoke = this->Scene_.Smoke();
+  // No cell gets more than all of the plate would send it from the nearest place of the block.
+  const Vec3 low = smoke.CellCentre(smoke.Cell(block, {0, 0, 0}));
+  const Vec3 high =
+    smoke.CellCentre(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1}));
+  const double reach = 0.5 * glm::length(high - low) + root.Radius;
+  const double distance = glm::length(root.Centre - 0.5 * (low + high)) - reach;
+  if (!(distance > reach))
+  {
+    return false;
+  }
+  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - WayTolerance;
+  Spectrum most{};
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    most[band] = root.Intensity[band] / (distance * distance) *
+                 std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+  }
+  const double share = NegligibleShare / static_cast<double>(this->Scene_.Lights().Lights().size());
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          if (most[band] > share * sums[cell][band])
+          {
+            return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+DirectLight::BlockWork DirectLight::AddBlockFluence(
+  std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
-  const auto ways = largest >= SmallestBlock ? this->BlockWays(root, block)
-                                             : std::optional<std::array<double, 8>>();
-  std::size_t told = 0;
+  const auto ways = skips && largest >= SmallestBlock ? this->BlockWays(root, block)
+                                                      : std::optional<std::array<double, 8>>();
+  BlockWork work;
   if (!ways && largest > SmallestBlock)
   {
     const int half = (largest + 1) / 2;
@@ -187,9 +237,19 @@ std::size_t DirectLight::AddBlockFluence(
         child.Size[axis] = std::min(half, block.Size[axis] - first);
         empty = empty || child.Size[axis] <= 0;
       }
-      told += empty ? 0 : this->AddBlockFluence(light, child, sums);
+      if (!empty)
+      {
+        const BlockWork own = this->AddBlockFluence(light, child, skips, sums);
+        work.Told += own.Told;
+        work.Negligible += own.Negligible;
+      }
     }
-    return told;
+    return work;
+  }
+  if (ways && this->Negligible(root, block, *ways, sums))
+  {
+    work.Negligible = static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
+    return work;
   }
   std::array<int, 3> place;
   for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
@@ -203,7 +263,7 @@ std::size_t DirectLight::AddBlockFluence(
           ways ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
                    Trilinear(*ways, BlockShare(block, place)))
                : this->CellFluence(light, cell);
-        told += ways ? 1 : 0;
+        work.Told += ways ? 1 : 0;
         for (int band = 0; band < this->Scene_.Bands(); ++band)
         {
           sums[cell][band] += value[band];
@@ -211,7 +271,7 @@ std::size_t DirectLight::AddBlockFluence(
       }
     }
   }
-  return told;
+  return work;
 }
 
 Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size,

@@ -11,6 +11,16 @@ namespace
 constexpr double Pi = 3.141592653589793;
 /// Groups of emitting cells that span less than this count as one source [rad].
 constexpr double SmallAngle = 0.05;
+/// Larger ones without cells of their own are cut, at most into so many parts along an edge.
+constexpr int MostParts = 12;
+
+/// Parts of an edge that a point at a distance sees under a small angle each.
+int PartsOf(double edge, double distance)
+{
+  // A part's radius is about half its edge times the root of 2.
+  const double parts = std::ceil(edge / (std::sqrt(2.0) * SmallAngle * std::max(distance, 1e-9)));
+  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(MostParts)));
+}
 
 } // namespace
 
@@ -58,6 +68,11 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
       open.push_back(group.FirstChild + 1);
       continue;
     }
+    if (group.Radius > SmallAngle * glm::distance(group.Centre, eye))
+    {
+      this->AddParts(view, group);
+      continue;
+    }
     this->AddPlate(view, group.Centre, group.Radius, group.Normal, group.Law, group.Intensity);
   }
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
@@ -76,6 +91,40 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
   if (view.TheScene().Smoke().Emits())
   {
     this->AddFlames(view);
+  }
+}
+
+//------------------------------------------------------------------------------
+void GlareSources::AddParts(const View& view, const LightGroup& leaf)
+{
+  const auto& corners = leaf.Corners;
+  const auto place = [&corners](double u, double v)
+  {
+    return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
+           v * ((1.0 - u) * corners[3] + u * corners[2]);
+  };
+  const double distance = leaf.Distance(this->Eye_);
+  const int across =
+    PartsOf(std::max(glm::distance(corners[0], corners[1]), glm::distance(corners[3], corners[2])),
+      distance);
+  const int up =
+    PartsOf(std::max(glm::distance(corners[0], corners[3]), glm::distance(corners[1], corners[2])),
+      distance);
+  for (int j = 0; j < up; ++j)
+  {
+    for (int i = 0; i < across; ++i)
+    {
+      const auto at = [&](double right, double above)
+      { return place((i + right) / across, (j + above) / up); };
+      const double area =
+        0.5 * glm::length(glm::cross(at(1.0, 1.0) - at(0.0, 0.0), at(0.0, 1.0) - at(1.0, 0.0)));
+      Spectrum intensity = leaf.Intensity;
+      for (double& value : intensity)
+      {
+        value *= area / leaf.Area;
+      }
+      this->AddPlate(view, at(0.5, 0.5), std::sqrt(area / Pi), leaf.Normal, leaf.Law, intensity);
+    }
   }
 }
 
@@ -170,8 +219,10 @@ double GlareSources::VeilingLuminance(const Sign& sign, double age) const
       continue;
     }
     const double angle = std::atan2(glm::length(glm::cross(source.Direction, sight)), cosine);
-    // An extended source is nowhere nearer, on average, than its own radius.
-    veil += source.Illuminance * cosine * VeilPerIlluminance(std::hypot(angle, source.Radius), age);
+    // Not nearer than half its radius: a source that the eye looks into stays finite, and one beside
+    // the line of sight is hardly moved.
+    const double off = std::hypot(angle, 0.5 * source.Radius);
+    veil += source.Illuminance * cosine * VeilPerIlluminance(off, age);
   }
   return veil;
 }

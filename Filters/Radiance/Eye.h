@@ -61,6 +61,8 @@ private:
     bool Plate;
   };
 
+  /// Cuts a cell that is large in the eye's field of view into parts that are not.
+  void AddParts(const View& view, const LightGroup& leaf);
   void AddPlate(const View& view, const Vec3& place, double radius, const Vec3& normal,
     const EmissionLaw& law, const Spectrum& intensity);
   void AddFlames(const View& view);

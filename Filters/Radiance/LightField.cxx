@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "LineSweep.h"
 #include "PlateGather.h"
+#include "PowerBalance.h"
 #include "Sampler.h"
 #include "Settling.h"
 #include "VeilProbes.h"
@@ -33,25 +34,11 @@ constexpr int MostSweeps = 768;
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
-/// A field is not scaled by more than this at once.
-constexpr double SmallestScale = 0.25;
-constexpr double LargestScale = 1e3;
-/// Share of the light sent out that must be lost, or else what leaks through rounded corners
-/// decides.
-constexpr double SmallestLoss = 1e-5;
 /// Cells along the edges of the blocks that share ways to the lights.
 constexpr int BlockEdge = 8;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
-
-void Multiply(std::vector<float>& values, double scale)
-{
-  for (float& value : values)
-  {
-    value *= static_cast<float>(scale);
-  }
-}
 
 /// The work that one solve goes through, with what its steps share.
 class Solver
@@ -67,12 +54,10 @@ public:
 
 private:
   void SolveCells();
+  /// Lights in the order of what they would send to a block through clear air.
+  std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
   void SolvePatches();
   void SolveMultiple(int band);
-  void Balance(const LineSweep& sweep, int band, std::vector<BatchState>& batches) const;
-  /// Whether neither smoke nor surfaces take light away; it may still leave the scene.
-  bool HardlyLoses(int band) const;
-  void BalanceMeans(const LineSweep& sweep, std::vector<BatchState>& batches) const;
   int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
@@ -131,6 +116,27 @@ void Solver::ForAll(std::size_t count, std::size_t grain, double from, double to
   }
 }
 
+std::vector<std::size_t> Solver::StrongestFirst(const Medium::Block& block) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Vec3 place = this->Scene_.Smoke().CellCentre(this->Scene_.Smoke().Cell(block, {0, 0, 0}));
+  std::vector<std::pair<double, std::size_t>> strengths;
+  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
+  {
+    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const Vec3 way = root.Centre - place;
+    const double most = *std::max_element(root.Intensity.begin(), root.Intensity.end());
+    strengths.emplace_back(-most / (glm::dot(way, way) + root.Area), light);
+  }
+  std::sort(strengths.begin(), strengths.end());
+  std::vector<std::size_t> order;
+  for (const auto& [strength, light] : strengths)
+  {
+    order.push_back(light);
+  }
+  return order;
+}
+
 void Solver::SolveCells()
 {
   const std::size_t lights = this->Scene_.Lights().Lights().size();
@@ -141,12 +147,16 @@ void Solver::SolveCells()
   const std::vector<Medium::Block> blocks = this->Scene_.Smoke().Blocks(BlockEdge);
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
   std::atomic<std::size_t> told{0};
+  std::atomic<std::size_t> negligible{0};
   this->ForAll(blocks.size(), 1, 0.0, 0.8 * DirectShare,
     [&](std::size_t block)
     {
-      for (std::size_t light = 0; light < lights; ++light)
+      for (const std::size_t light : this->StrongestFirst(blocks[block]))
       {
-        told += this->Direct_.AddBlockFluence(light, blocks[block], sums);
+        const DirectLight::BlockWork work =
+          this->Direct_.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
+        told += work.Told;
+        negligible += work.Negligible;
       }
     });
   for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
@@ -159,6 +169,8 @@ void Solver::SolveCells()
   }
   this->Say("optical depths between cells and lights not walked", static_cast<double>(told),
     "neighbouring cells' ways tell them");
+  this->Say("direct light of cells not computed", static_cast<double>(negligible),
+    "bounds of the light after its way through the smoke lie below 1e-7 of other lights'");
 }
 
 void Solver::SolvePatches()
@@ -235,87 +247,10 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
   this->CheckStop();
 }
 
-void Solver::Balance(const LineSweep& sweep, int band, std::vector<BatchState>& batches) const
-{
-  if (this->Scene_.Sky() > 0.0)
-  {
-    // Light from outside that goes straight out again tells nothing about the rest.
-    return;
-  }
-  // What is lost must be what is emitted. A field that is scaled to be in balance as a whole has
-  // its slowest mode's series of reflections summed at once. Each batch for itself, so that their
-  // spread shows how well the scale is known.
-  const double source = sweep.FirstSource();
-  double loss = 0.0;
-  double sent = 0.0;
-  for (BatchState& batch : batches)
-  {
-    const double own = sweep.Loss(batch);
-    loss += own;
-    sent += source + sweep.LaterSource(batch);
-    const double scale =
-      own > 0.0 ? std::clamp(source / own, SmallestScale, LargestScale) : LargestScale;
-    Multiply(batch.Fluence, scale);
-    Multiply(batch.Illuminance, scale);
-  }
-  if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses(band))
-  {
-    throw Error("light field",
-      "hardly any light is lost anywhere, so that it would grow nearly without end",
-      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
-  }
-}
-
-bool Solver::HardlyLoses(int band) const
-{
-  bool loses =
-    this->Scene_.Albedo()<1.0 - SmallestLoss&& this->Scene_.Smoke().MaximumExtinction()> 0.0F;
-  for (std::size_t patch = 0; patch < this->Field_.Patches && !loses; ++patch)
-  {
-    loses = this->Scene_.PatchReflectance(
-      patch)[band]<1.0 - SmallestLoss&& this->Scene_.ExposedArea(patch, 0) +
-                   this->Scene_.ExposedArea(patch, 1)> 0.0;
-  }
-  return !loses;
-}
-
-void Solver::BalanceMeans(const LineSweep& sweep, std::vector<BatchState>& batches) const
-{
-  if (this->Scene_.Sky() > 0.0)
-  {
-    return;
-  }
-  // Where light leaves the scene, the loss may be known less well than the light itself: it counts
-  // where it makes the batches agree better.
-  std::vector<double> scales;
-  double sum = 0.0;
-  double squares = 0.0;
-  double scaledSum = 0.0;
-  double scaledSquares = 0.0;
-  for (const BatchState& batch : batches)
-  {
-    const double own = sweep.Loss(batch);
-    scales.push_back(
-      own > 0.0 ? std::clamp(sweep.FirstSource() / own, SmallestScale, LargestScale) : 1.0);
-    const double later = sweep.LaterSource(batch);
-    sum += later;
-    squares += later * later;
-    scaledSum += later * scales.back();
-    scaledSquares += later * later * scales.back() * scales.back();
-  }
-  if (scaledSquares * sum * sum < squares * scaledSum * scaledSum)
-  {
-    for (std::size_t i = 0; i < batches.size(); ++i)
-    {
-      Multiply(batches[i].FluenceSum, scales[i]);
-      Multiply(batches[i].IlluminanceSum, scales[i]);
-    }
-  }
-}
-
 int Solver::Settle(
   const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
 {
+  const PowerBalance balance(this->Scene_, sweep, band);
   BlockMeans earlier;
   int done = 0;
   for (int window = FirstWindow;; window *= 2)
@@ -330,25 +265,32 @@ int Solver::Settle(
       this->Sweep(sweep, batches, key + done);
       if (first == 0)
       {
-        this->Balance(sweep, band, batches);
+        balance.ScaleLatest(batches);
       }
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
     BlockMeans now(batches, this->Scene_, this->Field_, band);
-    if (first > 0 &&
-        now.DriftSince(earlier, this->Options_.Tolerance) < DriftShare * this->Options_.Tolerance)
+    const double limit = DriftShare * this->Options_.Tolerance;
+    const BlockMeans::Drift drift =
+      first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
+    if (first > 0 && drift.UpperBound < limit)
     {
       return done;
     }
     if (done + 2 * window > MostSweeps)
     {
+      // Noise may hide a small drift to the end; a drift that shows is none of it.
+      if (drift.Estimate < limit)
+      {
+        return done;
+      }
       throw Error("light field", "the light did not settle in " + std::to_string(done) + " sweeps",
         "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that light "
         "is hardly ever lost");
     }
     if (first > 0)
     {
-      this->Balance(sweep, band, batches);
+      balance.ScaleLatest(batches);
     }
     earlier = std::move(now);
   }
@@ -418,7 +360,7 @@ void Solver::SolveMultiple(int band)
     }
     error = probes.RelativeError(batches);
   }
-  this->BalanceMeans(sweep, batches);
+  PowerBalance(this->Scene_, sweep, band).ScaleSums(batches);
   error = probes.RelativeError(batches);
   const int counted = batches.front().Counted;
   for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
@@ -513,7 +455,7 @@ LightField Solver::Run()
   for (int band = 0; band < this->Field_.Bands; ++band)
   {
     int same = 0;
-    while (same < band && !this->BandsEqual(same, band))
+    while (same < band && !(this->Options_.Skips && this->BandsEqual(same, band)))
     {
       ++same;
     }

@@ -25,6 +25,8 @@ struct LightFieldOptions
   std::uint64_t Seed = 1;
   /// Most worker threads; 0: as many as the machine has. The result does not depend on it.
   int Threads = 0;
+  /// Leaves out what the scene does not need; off: does everything, to measure what that saves.
+  bool Skips = true;
 };
 
 /// Plain result of the solver. Patches are surface cells, then emitter cells; sides are front,

@@ -95,7 +95,7 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
   }
 }
 
-double BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
+BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
 {
   double signal = 0.0;
   double noise = 0.0;
@@ -123,13 +123,13 @@ double BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) cons
   }
   if (weights == 0.0)
   {
-    return 0.0;
+    return {};
   }
   // Noise alone makes the signal the sum of the weighted variances (times 15/13, since they come
   // from 16 batches), give or take the root of twice the sum of their squares.
   constexpr double excess = (Batches - 1.0) / (Batches - 3.0);
   const double known = std::max(0.0, signal - excess * noise);
-  return std::sqrt((known + 2.0 * std::sqrt(2.0 * spread)) / weights);
+  return {std::sqrt(known / weights), std::sqrt((known + 2.0 * std::sqrt(2.0 * spread)) / weights)};
 }
 
 } // namespace smokevis

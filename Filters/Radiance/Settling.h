@@ -19,11 +19,17 @@ public:
   BlockMeans(
     const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band);
 
-  /// Upper estimate of the root mean square, over the blocks, of the drift from an earlier window
-  /// to this one over all light of the block (or over a floor where a block lies in the dark),
-  /// noise taken out.
+  /// Root mean square, over the blocks, of a drift over all light of the block (or over a floor
+  /// where a block lies in the dark).
+  struct Drift
+  {
+    /// Noise taken out, and no less than what noise leaves open.
+    double Estimate = 0.0;
+    double UpperBound = 0.0;
+  };
+  /// Drift from an earlier window to this one.
   /// @param resolution relative error that need not be resolved
-  double DriftSince(const BlockMeans& earlier, double resolution) const;
+  Drift DriftSince(const BlockMeans& earlier, double resolution) const;
 
 private:
   struct Block

@@ -30,6 +30,16 @@ sign.Update()
 assert sign.GetOutput().GetNumberOfCells() > 0
 "
 
+cat >"$work/shown.py" <<'PYTHON'
+import os
+
+from smokevisibility import display
+
+assert os.path.isfile(display.COLOR_MAP), display.COLOR_MAP
+PYTHON
+PYTHONPATH=$modules "$pvpython" --force-offscreen-rendering "$work/shown.py"
+test -e "$prefix/share/smokevisibility/Macros/show_map.py"
+
 cmake -S "$here" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" 2>&1 &&
   cmake --build "$work/consumer" >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$pvpython" --force-offscreen-rendering "$here/use_plugin.py" "$prefix" "$sample" \

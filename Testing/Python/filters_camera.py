@@ -183,6 +183,9 @@ def check_eye():
                               ("AdaptationTime", -1.0, "it is negative"),
                               ("DarkLuminance", -0.1, "it is negative"),
                               ("Acuity", math.nan, "it is not finite"),
+                              ("Acuity", 1e300, "it is too large"),
+                              ("DarkLuminance", 1e300, "it is too large"),
+                              ("AdaptationLuminance", 1e13, "it is too large"),
                               ("ObserverAge", 101.0, "it is not from 0 to 100")):
         texts = []
         for proxy, kind in ((view, "vtkVisibilityImage"), (floor, "vtkFloorMapOfVisibility")):

@@ -103,6 +103,44 @@ TEST(Eye, SeesGlareOfAPlate)
   EXPECT_NEAR(LookingAt(Observer(), state, nullptr, sign).DarkLuminance, 0.1 + 0.19905358, 1e-7);
 }
 
+// A tube of 1.2 m x 0.1 m and a square of 0.8 m, each one cell, against the sum over 0.01 m
+// squares: both are large in the field of view, and their nearest parts veil most.
+TEST(Eye, SeesGlareOfLargePlates)
+{
+  constexpr double Extinction = 0.2;
+  constexpr double Lamp = 3000.0;
+  const Vec3 eye(8.0, 0.0, 0.0);
+  for (const auto& [width, height] : {std::pair{1.2, 0.1}, {0.8, 0.8}})
+  {
+    for (const double lift : {0.7, 1.5})
+    {
+      const Vec3 centre(5.0, 0.0, lift);
+      SceneDescription scene = SignInSmoke(Extinction);
+      scene.Emitters.push_back(
+        PlateAt(centre, {0, 10.0 * width, 0}, {0, 0, 10.0 * height}, Lamp, -1));
+      const auto view = Solved(scene);
+      const Sign& sign = view->TheScene().Lights().Signs()[0];
+      double expected = 0.0;
+      for (double y = -0.5 * width + 0.005; y < 0.5 * width; y += 0.01)
+      {
+        for (double z = -0.5 * height + 0.005; z < 0.5 * height; z += 0.01)
+        {
+          const Vec3 to = centre + Vec3(0.0, y, z) - eye;
+          const double distance = glm::length(to);
+          const double cosine = -to.x / distance;
+          const double illuminance =
+            Lamp * 1e-4 * cosine / (distance * distance) * std::exp(-Extinction * distance);
+          expected += illuminance * cosine * VeilPerIlluminance(std::acos(cosine), 35.0);
+        }
+      }
+      // The nearest parts span 3 degrees at 6 degrees from the line of sight: 5 %. Counted whole,
+      // such a lamp veils half as much.
+      EXPECT_NEAR(GlareSources(*view, eye).VeilingLuminance(sign, 35.0) / expected, 1.0, 0.05)
+        << width << " " << lift;
+    }
+  }
+}
+
 TEST(Eye, SeesGlareOfFlames)
 {
   SceneDescription scene = SignInSmoke(0.0);

@@ -1,0 +1,215 @@
+// What is left out must not be missed, not even where a scene is made to trip it up; and each skip
+// says how often it was used.
+#include "Contrast.h"
+#include "FloorMap.h"
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+struct Outcome
+{
+  std::shared_ptr<const Scene> TheScene;
+  std::shared_ptr<const LightField> Field;
+  double Seconds;
+
+  double Count(const std::string& what) const
+  {
+    double sum = 0.0;
+    for (const WorkItem& item : this->Field->Report)
+    {
+      sum += item.What.find(what) != std::string::npos ? item.Count : 0.0;
+    }
+    return sum;
+  }
+};
+
+Outcome Solve(const SceneDescription& description, bool skips)
+{
+  Outcome run;
+  run.TheScene = std::make_shared<const Scene>(description);
+  LightFieldOptions options;
+  options.Tolerance = 0.1;
+  options.Skips = skips;
+  Progress progress;
+  const auto start = std::chrono::steady_clock::now();
+  run.Field = std::make_shared<const LightField>(SolveLightField(*run.TheScene, options, progress));
+  run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run;
+}
+
+/// Largest change of the direct fluence of smoky cells, over what is there.
+double LargestChange(const Outcome& skipping, const Outcome& all)
+{
+  double worst = 0.0;
+  for (std::size_t i = 0; i < all.Field->Cells; ++i)
+  {
+    const double value = all.Field->DirectFluence[i];
+    if (value > 0.0 && all.TheScene->Smoke().Extinction(static_cast<std::int64_t>(i)) > 0.0F)
+    {
+      worst = std::max(worst, std::abs(skipping.Field->DirectFluence[i] - value) / value);
+    }
+  }
+  return worst;
+}
+
+/// A corridor of 60 x 4 x 4 m full of smoke, with lamps of one strength along its ceiling.
+SceneDescription Corridor(double extinction)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.5;
+  const Vec3 upper(60, 4, 4);
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 8, 8}, extinction)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, 0.0);
+  for (int lamp = 0; lamp < 15; ++lamp)
+  {
+    scene.Emitters.push_back(
+      scenes::Plate({2.0 + 4.0 * lamp, 2, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.0));
+  }
+  return scene;
+}
+
+// Ways that are told are right to an optical depth of 0.004; that lamps far off are left out adds
+// nothing that shows.
+TEST(Skip, LampsFarOff)
+{
+  const SceneDescription scene = Corridor(1.0);
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("Corridor with 15 lamps: with all left out that may be, and with nothing left out");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.005);
+  std::printf("%.2f s instead of %.2f s; %.0f cells' lamps left out, %.0f ways told\n",
+    skipping.Seconds, all.Seconds, skipping.Count("direct light of cells not computed"),
+    skipping.Count("not walked"));
+  EXPECT_GT(skipping.Count("direct light of cells not computed"), 10000.0);
+  EXPECT_GT(skipping.Count("not walked"), 1000.0);
+  EXPECT_EQ(all.Count("direct light of cells not computed"), 0.0);
+  EXPECT_EQ(all.Count("not walked"), 0.0);
+}
+
+// A lamp a hundred million times as strong at the far end outshines the near ones even through
+// twenty optical depths, and must not be left out.
+TEST(Skip, StrongLampFarOff)
+{
+  SceneDescription scene = Corridor(0.4);
+  for (double& value : scene.Emitters.back().Luminance)
+  {
+    value *= 1e8;
+  }
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("Corridor with one very strong lamp");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.005);
+}
+
+// A slot of clear air, one cell wide, through a wall of smoke that lets nothing else pass: light of
+// the lamp beyond reaches few cells of each block, and those by the slot alone.
+TEST(Skip, ThinClearGap)
+{
+  SceneDescription scene = Corridor(0.05);
+  SmokeGrid& grid = scene.Grids[0];
+  for (int z = 0; z < 8; ++z)
+  {
+    for (int y = 0; y < 8; ++y)
+    {
+      for (int x = 50; x < 60; ++x)
+      {
+        grid.Extinction[x + 120 * (y + 8 * z)] = y == 4 ? 0.0F : 20.0F;
+      }
+    }
+  }
+  scene.Emitters.erase(scene.Emitters.begin() + 4, scene.Emitters.end());
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("Corridor with a slot in a wall of smoke");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
+}
+
+// Two equal bands are one; the second has other random numbers where it is solved for itself.
+TEST(Skip, EqualBands)
+{
+  SceneDescription scene = Corridor(0.5);
+  scene.Emitters.resize(2);
+  scene.Bands = 3;
+  for (EmitterCell& cell : scene.Emitters)
+  {
+    cell.Luminance = {1000.0, 1000.0, 500.0};
+  }
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  EXPECT_EQ(skipping.Count("band 1 skipped"), 1.0);
+  EXPECT_EQ(all.Count("band 1 skipped"), 0.0);
+  double sum = 0.0;
+  double difference = 0.0;
+  for (std::size_t cell = 0; cell < all.Field->Cells; ++cell)
+  {
+    sum += Mean(all.Field->MultipleFluence[all.Field->CellIndex(1, cell)]);
+    difference += Mean(skipping.Field->MultipleFluence[skipping.Field->CellIndex(1, cell)]);
+  }
+  report::Head("A band solved for itself against the equal one that stands for it");
+  report::Relative("sum of multiply scattered fluence", sum, difference, 0.02);
+}
+
+// A sign that only reflects, another in full light that is lost behind smoke, one without contrast:
+// places of a map keep their value where signs below a cut-off are left out by their bound, but for
+// those that lie below the cut-off.
+TEST(Skip, SignsBelowTheCutOff)
+{
+  SceneDescription scene = Corridor(0.25);
+  scene.Emitters.resize(4);
+  const auto add = [&scene](const Vec3& centre, double luminance, double reflectance, int id)
+  {
+    auto cells =
+      scenes::Barcode(centre, {1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, luminance, id, reflectance);
+    if (luminance == 0.0)
+    {
+      for (std::size_t cell = 0; cell < cells.size(); cell += 2)
+      {
+        cells[cell].Reflectance.fill(0.05);
+      }
+    }
+    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
+  };
+  add({0.01, 1.5, 2.0}, 0.0, 0.8, 0);
+  add({0.01, 2.8, 2.0}, 50.0, 0.1, 1);
+  const Outcome run = Solve(scene, true);
+  const View view(run.TheScene, run.Field);
+  FloorMapOptions options;
+  options.FirstPlace = {2.0, 1.0, 1.7};
+  options.StepX = 5.0;
+  options.StepY = 1.0;
+  options.PlacesX = 11;
+  options.PlacesY = 3;
+  Progress progress;
+  const FloorMap full = ComputeFloorMap(view, options, progress);
+  options.CutOff = 0.05;
+  const FloorMap cut = ComputeFloorMap(view, options, progress);
+  int kept = 0;
+  int left = 0;
+  for (std::size_t place = 0; place < full.Visibility.size(); ++place)
+  {
+    if (full.Visibility[place] >= options.CutOff)
+    {
+      EXPECT_EQ(cut.Visibility[place], full.Visibility[place]) << place;
+      ++kept;
+    }
+    else
+    {
+      EXPECT_LT(cut.Visibility[place], options.CutOff) << place;
+      ++left;
+    }
+  }
+  EXPECT_GT(kept, 3);
+  EXPECT_GT(left, 3);
+}
+
+} // namespace
