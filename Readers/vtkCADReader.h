@@ -126,7 +126,7 @@ public:
 
   ///@{
   /**
-   * Largest distance between a curved face of STEP or IGES and its triangles [m]. Range above 0,
+   * Largest distance between a curved face of STEP or IGES and its triangles [m]. Range from 1e-6,
    * default 0.005.
    */
   vtkSetMacro(LinearTolerance, double);

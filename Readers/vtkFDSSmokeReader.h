@@ -32,8 +32,7 @@
  *  -# 8-bit smoke that holds opacity.
  *
  * Parts of a mesh are completed by the next best. Smoke species add. Of nodes, a cell gets the mean
- * of its eight. A mesh whose files are lost or damaged has no smoke, which a warning and
- * `ExtinctionSource` say; without any mesh's it is an error.
+ * of its eight. Where a mesh's smoke is lost or damaged and has no other source, it is an error.
  *
  * Output 1, Geometry, is a vtkPolyData with fronts towards the gas: rectangles of obstructions and
  * of the outer boundaries of the meshes that are not open, and triangles of complex geometry

@@ -90,10 +90,12 @@ void CheckOptions(const CadOptions& options)
     throw Error("UnitScale", "it is not a positive number",
       "Give the length of one unit of the file in metres, such as 0.001, or 0 for automatic");
   }
-  if (!positive(options.LinearTolerance))
+  // Finer ones ask for more triangles than there is memory.
+  constexpr double finest = 1e-6;
+  if (!positive(options.LinearTolerance) || options.LinearTolerance < finest)
   {
-    throw Error(
-      "LinearTolerance", "it is not a positive number", "Give a length in metres, such as 0.005");
+    throw Error("LinearTolerance", "it is not a positive number of at least 1e-6 m",
+      "Give a length in metres, such as 0.005");
   }
   if (!(options.AngularTolerance >= 0.5 && options.AngularTolerance <= 90.0))
   {

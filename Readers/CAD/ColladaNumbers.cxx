@@ -2,10 +2,10 @@
 #include "ColladaNumbers.h"
 
 #include "Errors.h"
+#include "FileBytes.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <string>
 #include <string_view>
 
 namespace smokevis
@@ -14,8 +14,7 @@ namespace smokevis
 //------------------------------------------------------------------------------------------------
 void CheckColladaNumbers(const std::string& fileName)
 {
-  std::ifstream file(fileName, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = FileBytes(fileName);
   for (const std::string_view element : {"<p>", "<vcount>", "<v>", "<h>"})
   {
     for (std::size_t at = text.find(element); at != std::string::npos;

@@ -1,11 +1,11 @@
 // Looks for units and axes in the text of COLLADA, DXF and IFC files.
 #include "FileHeader.h"
 
+#include "FileBytes.h"
 #include "StepRecord.h"
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -28,8 +28,7 @@ using Records = std::map<std::string, std::string, std::less<>>;
 Records ReadUnitRecords(const std::string& fileName)
 {
   Records records;
-  std::ifstream file(fileName, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = FileBytes(fileName);
   ForEachRecord(text,
     [&](std::string_view number, std::string_view body, std::string_view)
     {

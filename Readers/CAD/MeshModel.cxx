@@ -2,31 +2,26 @@
 #include "MeshModel.h"
 
 #include "ColladaNumbers.h"
-#include "CrashGuard.h"
 #include "Errors.h"
+#include "FileBytes.h"
 #include "FileEnd.h"
 #include "FileHeader.h"
 #include "Ifc4Rewriter.h"
+#include "MeshImport.h"
+#include "ObjRewriter.h"
 #include "PlyFile.h"
 #include "SrgbColor.h"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/Importer.hpp>
-#include <assimp/ProgressHandler.hpp>
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/matrix4x4.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <memory>
-#include <set>
+#include <string>
+#include <utility>
 
 namespace smokevis
 {
@@ -34,41 +29,6 @@ namespace
 {
 
 using Matrix = aiMatrix4x4t<double>;
-
-class ImportProgress : public Assimp::ProgressHandler
-{
-public:
-  explicit ImportProgress(Progress& progress) : Progress_(progress) {}
-  bool Update(float fraction) override
-  {
-    this->Farthest_ = std::max(this->Farthest_, std::clamp(fraction, 0.0F, 1.0F));
-    this->Progress_.Report(this->Farthest_);
-    return !this->Progress_.ShouldStop();
-  }
-
-private:
-  Progress& Progress_;
-  float Farthest_ = 0.0F;
-};
-
-/// Notes the files that a model refers to and that are not there.
-class ImportFiles : public Assimp::DefaultIOSystem
-{
-public:
-  explicit ImportFiles(std::set<std::string>& missing) : Missing_(missing) {}
-  Assimp::IOStream* Open(const char* file, const char* mode) override
-  {
-    Assimp::IOStream* const stream = Assimp::DefaultIOSystem::Open(file, mode);
-    if (!stream)
-    {
-      this->Missing_.insert(std::filesystem::path(file).filename().string());
-    }
-    return stream;
-  }
-
-private:
-  std::set<std::string>& Missing_;
-};
 
 /// Turns an imported scene into a model.
 class SceneConverter
@@ -363,12 +323,6 @@ Matrix ReadHeader(
                 : Matrix(s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1);
 }
 
-std::string Bytes(const std::string& fileName)
-{
-  std::ifstream file(fileName, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -385,59 +339,38 @@ void ReadMeshModel(const std::string& fileName, const CadFormat& format, const C
   {
     CheckColladaNumbers(fileName);
   }
-  std::set<std::string> missing;
-  auto importer = std::make_unique<Assimp::Importer>();
-  importer->SetIOHandler(new ImportFiles(missing));
-  importer->SetProgressHandler(new ImportProgress(progress));
-  importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  importer->SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
-  std::size_t unread = 0;
-  const std::string rewritten = format.Name == "IFC"
-                                  ? RewriteIfc4(Bytes(fileName), options.AngularTolerance, unread)
-                                  : std::string();
-  if (unread > 0)
+  std::string rewritten;
+  if (format.Name == "IFC")
   {
-    model.Warnings.push_back(
-      std::to_string(unread) +
-      " shapes of IFC4, such as IfcAdvancedBrep, are not read and are missing; export tessellated "
-      "geometry or IFC2x3");
-  }
-  const aiScene* scene = nullptr;
-  const std::string failure = CrashGuard().Run(
-    [&]()
+    std::size_t unread = 0;
+    rewritten = RewriteIfc4(FileBytes(fileName), options.AngularTolerance, unread);
+    if (unread > 0)
     {
-      constexpr unsigned int steps = aiProcess_ValidateDataStructure | aiProcess_Triangulate;
-      scene = rewritten.empty()
-                ? importer->ReadFile(fileName, steps)
-                : importer->ReadFileFromMemory(rewritten.data(), rewritten.size(), steps, "ifc");
-    });
-  std::string why = failure.empty() ? importer->GetErrorString() : failure;
-  if (!failure.empty())
-  {
-    // It was left in the middle of its work: deleting it would follow the same pointers again.
-    static_cast<void>(importer.release());
-    scene = nullptr;
+      model.Warnings.push_back(std::to_string(unread) +
+                               " shapes of IFC4, such as IfcAdvancedBrep, are not read and are "
+                               "missing; export tessellated "
+                               "geometry or IFC2x3");
+    }
   }
+  else if (format.Name == "OBJ")
+  {
+    rewritten = RewriteObj(FileBytes(fileName));
+  }
+  const MeshImport import(fileName, format, std::move(rewritten), progress);
   if (progress.ShouldStop())
   {
     return;
   }
-  if (!scene || !scene->mRootNode)
-  {
-    why.erase(why.find_last_not_of(". \n") + 1);
-    throw Error(fileName,
-      "it cannot be read as " + std::string(format.Name) + (why.empty() ? "" : " (" + why + ")"),
-      "Check that the file is complete, or export it again");
-  }
-  for (const std::string& file : missing)
+  for (const std::string& file : import.Missing())
   {
     model.Warnings.push_back(
       "the file '" + file +
       "' that the model refers to is missing beside it, so colours may be missing");
   }
-  const Matrix toFile = ReadHeader(fileName, format, *scene, model);
-  SceneConverter(*scene, fileName, format, options, !missing.empty(), model).Convert(toFile);
+  const aiScene& scene = import.Scene();
+  const Matrix toFile = ReadHeader(fileName, format, scene, model);
+  SceneConverter(scene, fileName, format, options, !import.Missing().empty(), model)
+    .Convert(toFile);
 }
 
 } // namespace smokevis

@@ -108,28 +108,20 @@ void ExtinctionSource::Choose()
       failures[key].push_back(error);
     }
   }
-  if (std::all_of(
-        terms_.begin(), terms_.end(), [](const std::vector<Term>& terms) { return terms.empty(); }))
-  {
-    throw failures.begin()->second.front();
-  }
-  // A crashed run, or one that was copied in part, is shown as far as it goes.
   for (const auto& [key, errors] : failures)
   {
     const std::vector<Term>& chosen = terms_[key.first];
-    const bool lost = std::none_of(chosen.begin(), chosen.end(),
-      [species = key.second](const Term& term) { return term.Field.Of().Species == species; });
+    if (std::none_of(chosen.begin(), chosen.end(),
+          [species = key.second](const Term& term) { return term.Field.Of().Species == species; }))
+    {
+      // A mesh shown without its smoke would let signs be seen that are not.
+      throw errors.front();
+    }
     for (const Error& error : errors)
     {
-      warnings_.push_back((lost ? "SMOKE IS MISSING: mesh '" + index_.Meshes[key.first].Name +
-                                    "' is shown as if it had none" +
-                                    (key.second.empty() ? "" : " of " + key.second) + ". "
-                                : "The next best source of smoke is used where this is missing: ") +
-                          error.what());
-    }
-    if (lost)
-    {
-      lost_.insert(key);
+      warnings_.push_back(
+        std::string("The next best source of smoke is used where this is missing: ") +
+        error.what());
     }
   }
 }
@@ -152,10 +144,6 @@ void ExtinctionSource::WarnOfGaps()
     {
       const auto last = std::find_if(terms_[mesh].rbegin(), terms_[mesh].rend(),
         [&one](const Term& term) { return term.Field.Of().Species == one; });
-      if (last == terms_[mesh].rend() && lost_.contains({static_cast<int>(mesh), one}))
-      {
-        continue; // the missing file was named
-      }
       if (last == terms_[mesh].rend())
       {
         warnings_.push_back("Mesh '" + name + "' has no 3-D output of the smoke" +
@@ -239,11 +227,6 @@ void ExtinctionSource::Describe()
         }
       }
     }
-  }
-  for (const auto& [mesh, species] : lost_)
-  {
-    text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index_.Meshes[mesh].Name
-         << "': " << (species.empty() ? "smoke" : species) << " MISSING";
   }
   description_ = text.str();
   if (visibility)

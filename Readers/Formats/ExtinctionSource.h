@@ -9,7 +9,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <memory>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +26,8 @@ class ExtinctionSource
 {
 public:
   /// @param index the run; must outlive this object
-  /// Throws Error when the run wrote no 3-D smoke (of the kind asked for), or none of it can be
-  /// read. Where that is so of some meshes only, they have no smoke, and Warnings() says so.
+  /// Throws Error when the run wrote no 3-D smoke (of the kind asked for), or a file that is needed
+  /// is missing or damaged.
   ExtinctionSource(const SmvFile& index, const SmokeOptions& options);
 
   /// Frame times over all meshes [s], increasing.
@@ -93,8 +92,6 @@ private:
   tbb::enumerable_thread_specific<Scratch> scratch_;
   /// The chosen terms of each mesh, those of one species side by side.
   std::vector<std::vector<Term>> terms_;
-  /// Meshes and species of which the run wrote smoke that cannot be read.
-  std::set<std::pair<int, std::string>> lost_;
 };
 
 } // namespace smokevis

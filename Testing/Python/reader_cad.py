@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import os
 import sys
 import tempfile
@@ -151,6 +152,24 @@ with tempfile.TemporaryDirectory() as folder:
     refused("Check the path", FileName=os.path.join(folder, "missing.ifc"))
     refused("export it again", FileName=os.path.join(folder, "broken.step"))
     refused("Convert it", FileName=os.path.join(folder, "model.dwg"))
+    # Numbers that are none: the error names the property instead of the file.
+    for name in ("UnitScale", "LinearTolerance", "AngularTolerance", "DefaultReflectance",
+                 "TransparencyThreshold", "Translation", "Rotation"):
+        for value in (math.nan, math.inf, -math.inf):
+            strange = simple.CADReader(FileName=sample("kiosk.step"))
+            good = getattr(strange, name)
+            good = list(good) if name in ("Translation", "Rotation") else good
+            setattr(strange, name, [0, value, 0] if name in ("Translation", "Rotation") else value)
+            with Messages() as failed:
+                port(strange, 0)
+            assert failed.count("ERROR", "vtkCADReader") == 1, (name, value, failed.text)
+            assert name + ": it is " in failed.text, (name, value, failed.text)
+            assert strange.GetClientSideObject().GetOutputDataObject(0).GetNumberOfCells() == 0
+            setattr(strange, name, 1.0 if name == "UnitScale" else good)
+            with Messages() as failed:
+                assert port(strange, 0).GetNumberOfCells() == 14, (name, value)
+            assert failed.text == "", failed.text
+            simple.Delete(strange)
     with open(table, "w") as file:
         file.write("name,drop\n*,yes\n")
     refused("change the table", FileName=sample("kiosk.obj"), MaterialTable=table)

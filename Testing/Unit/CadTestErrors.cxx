@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace smokevis::test
@@ -56,8 +57,11 @@ TEST(CadErrors, NameTheFileAndTheRemedy)
   options.AngularTolerance = 0.0;
   EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("AngularTolerance"));
   options = {};
-  options.LinearTolerance = 0.0;
-  EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("LinearTolerance"));
+  for (const double tolerance : {0.0, 1e-9, -1.0, std::nan(""), HUGE_VAL})
+  {
+    options.LinearTolerance = tolerance;
+    EXPECT_THAT(Message(Samples + "kiosk.obj", options), HasSubstr("LinearTolerance"));
+  }
 }
 
 TEST(CadErrors, TruncatedFilesAreRefused)

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sys/stat.h>
 
 namespace smokevis::test
 {
@@ -356,6 +357,37 @@ TEST(CadMesh, DegenerateTrianglesAreCounted)
   // The sliver of 0.1 mm stays.
   EXPECT_EQ(model.Triangles.size(), 2U);
   EXPECT_EQ(model.DegenerateTriangles, 2U);
+}
+
+TEST(CadMesh, ObjOfOtherHabits)
+{
+  const Folder folder("obj-habits");
+  // The plain triangle has an area of 1/16; a lost vertex would make it another one.
+  const std::string rest = "v 9 9 9\nv 8 7 9\nv 7 7 7\n";
+  for (const std::string& text : {"v 0 0 0\nv 0.5 0 0\nv 0 0.25 0\n" + rest + "f 1 2 3\n",
+         "v 0 0 0\nv .5 0 0\nv 0 .25 0\n" + rest + "f 1 2 3\n",
+         "v 0 0 0\r\nv\t.5\t0 -.0\r\nv 0 +.25 0\r\n" + rest + "f 1 2 3\r\n",
+         "v 0 0 0 # one\nv 5e-1 0 0 #2\nv 0 .25 0\n" + rest + "f 1 2 3 # face 1.5\n",
+         "v 0 0 0\nv .5 0 0\nv 0 .25 0\n" + rest + "o a.b #3\nf 1 2 3"})
+  {
+    const CadModel model = Read(folder.Write("a.obj", text));
+    ASSERT_EQ(model.Triangles.size(), 1U) << text;
+    EXPECT_NEAR(MeasureObject(model).Area, 1.0 / 16.0, 1e-9) << text;
+  }
+  // Names keep their points and signs.
+  const CadModel model =
+    Read(folder.Write("b.obj", "o .a#3\nv .5 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3 # last\n"));
+  EXPECT_EQ(model.Objects.at(0).Name, ".a#3");
+}
+
+TEST(CadMesh, PipesAreNotWaitedFor)
+{
+  const Folder folder("obj-pipe");
+  ASSERT_EQ(::mkfifo(folder.Path("a.mtl").c_str(), 0600), 0);
+  const CadModel model =
+    Read(folder.Write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  ASSERT_EQ(model.Warnings.size(), 1U);
+  EXPECT_NE(model.Warnings[0].find("'a.mtl'"), std::string::npos);
 }
 
 TEST(CadMesh, MissingMaterialFileIsSaid)

@@ -244,18 +244,12 @@ TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
   EXPECT_THAT(this->Problem(), HasSubstr("is not the one"));
 }
 
-TEST_F(OneMeshRun, ALostFileOfOneMeshLeavesTheOthers)
+TEST_F(OneMeshRun, ALostFileOfOneMeshIsAnError)
 {
   index_.Mesh("other", {1, 1, 1}, {2, 0, 0}, {3, 1, 1});
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
   index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
-  ExtinctionSource source(this->Run(), {});
-  ASSERT_EQ(source.Warnings().size(), 1U);
-  EXPECT_THAT(source.Warnings()[0],
-    testing::AllOf(HasSubstr("SMOKE IS MISSING: mesh 'other'"), HasSubstr("gone.sf")));
-  EXPECT_THAT(source.Description(), HasSubstr("mesh 'other': SOOT MISSING"));
-  EXPECT_THAT(test::ReadCells(source, 0, 0.0, {}).Values, ElementsAre(1.0F, 2.0F));
-  EXPECT_THAT(test::ReadCells(source, 1, 0.0, {}, 1).Values, ElementsAre(0.0F));
+  EXPECT_THAT(this->Problem(), HasSubstr("gone.sf"));
 }
 
 TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
