@@ -7,6 +7,7 @@
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "RankReport.h"
 #include "Ranks.h"
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
@@ -22,7 +23,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
-#include <vtkStringArray.h>
 
 #include <tbb/info.h>
 
@@ -145,29 +145,6 @@ void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, 
   }
   output->SetPartitionedDataSet(index, partitions);
   output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name);
-}
-
-/// Adds what each process of a parallel run did: every one of them solves the whole.
-void ReportRanks(const smokevis::Ranks& ranks, vtkPartitionedDataSetCollection& output, double own)
-{
-  constexpr double kibibyte = 1024.0;
-  const std::vector<double> seconds = ranks.Each(own);
-  const std::vector<double> bytes =
-    ranks.Each(kibibyte * static_cast<double>(output.GetActualMemorySize()));
-  vtkFieldData* const fields = output.GetFieldData();
-  auto* const what = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhat"));
-  auto* const why = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhy"));
-  vtkDataArray* const count = fields->GetArray("WorkReportCount");
-  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
-  {
-    const std::string process = " of process " + std::to_string(rank);
-    what->InsertNextValue("seconds" + process);
-    count->InsertNextTuple1(seconds[rank]);
-    why->InsertNextValue("each process solves the whole light field");
-    what->InsertNextValue("bytes" + process);
-    count->InsertNextTuple1(bytes[rank]);
-    why->InsertNextValue("each process holds the whole light field");
-  }
 }
 
 /// Leaves every so many-th block, which a view of a parallel run is to draw.
@@ -519,8 +496,15 @@ int vtkSmokeLightField::RequestData(
       own.MadeWith = 0;
       const auto start = std::chrono::steady_clock::now();
       ranks.Together(this, [&] { this->Solve(inputVector, output); });
-      ReportRanks(ranks, *output,
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      if (ranks.Count() > 1)
+      {
+        constexpr double kibibyte = 1024.0;
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        const double bytes = kibibyte * static_cast<double>(output->GetActualMemorySize());
+        smokevis::ReportRanks(*output->GetFieldData(),
+          {ranks.Each(taken.count()), "each process solves the whole light field"},
+          {ranks.Each(bytes), "each process holds the whole light field"});
+      }
       own.Kept.Keep(outputVector, 0);
       own.MadeOf = contents;
       own.MadeWith = this->GetMTime();
