@@ -5,23 +5,17 @@
 #include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
-#include "MemoryGuard.h"
+#include "LightFieldOutput.h"
 #include "PipelineProgress.h"
-#include "RankReport.h"
 #include "Ranks.h"
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
-#include "SurfaceRefiner.h"
+#include "ScenePreparation.h"
 #include "WholeInput.h"
 
-#include <vtkBoundingBox.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
 
 #include <tbb/info.h>
@@ -29,7 +23,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 vtkStandardNewMacro(vtkSmokeLightField);
 
@@ -42,125 +35,11 @@ constexpr double ReferenceWavelength = 633.0;
 constexpr double DefaultAlbedo = 0.3;
 /// Patches along the diagonal of all geometry.
 constexpr double AutomaticPatches = 50.0;
-/// What the solver and the output take for each smoke cell and surface patch, at their peak
-/// [bytes]: so much at all, and so much more a band (measured: 250 with one band, 560 with three).
-constexpr double CellBytes = 160.0;
-constexpr double CellBandBytes = 130.0;
-constexpr double PatchBytes = 500.0;
-constexpr double PatchBandBytes = 280.0;
 /// Ratio of sizes beyond which surfaces and smoke are likely in different units.
 constexpr double SuspiciousRatio = 100.0;
 
 using smokevis::Error;
 using smokevis::SceneBlocks;
-using smokevis::SurfaceBlock;
-
-std::vector<SurfaceBlock> CollectPort(vtkInformationVector* port, const std::string& name)
-{
-  std::vector<SurfaceBlock> blocks;
-  const int count = port->GetNumberOfInformationObjects();
-  for (int i = 0; i < count; ++i)
-  {
-    for (SurfaceBlock& block : smokevis::CollectSurfaces(
-           vtkDataObject::GetData(port, i), count == 1 ? name : name + " " + std::to_string(i + 1)))
-    {
-      blocks.push_back(std::move(block));
-    }
-  }
-  return blocks;
-}
-
-void AddDefaultReflectance(vtkPolyData& mesh, double reflectance)
-{
-  if (mesh.GetCellData()->HasArray("Reflectance"))
-  {
-    return;
-  }
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("Reflectance");
-  array->SetNumberOfTuples(mesh.GetNumberOfCells());
-  array->Fill(reflectance);
-  mesh.GetCellData()->AddArray(array);
-}
-
-double Diagonal(const SceneBlocks& blocks)
-{
-  vtkBoundingBox box;
-  for (const smokevis::SmokeBlock& block : blocks.Smoke)
-  {
-    box.AddBounds(block.Grid->GetBounds());
-  }
-  for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
-  {
-    for (const SurfaceBlock& block : *group)
-    {
-      box.AddBounds(block.Mesh->GetBounds());
-    }
-  }
-  return box.GetDiagonalLength();
-}
-
-double Diagonal(const std::vector<SurfaceBlock>& blocks)
-{
-  SceneBlocks scene;
-  scene.Surfaces = blocks;
-  return Diagonal(scene);
-}
-
-/// Cuts the blocks and drops those of which nothing is left. Returns the number of patches.
-std::size_t Refine(std::vector<SurfaceBlock>& blocks, double patchSize)
-{
-  std::size_t patches = 0;
-  std::vector<SurfaceBlock> refined;
-  for (const SurfaceBlock& block : blocks)
-  {
-    const auto mesh = smokevis::RefineSurface(block.Mesh, block.Name, patchSize);
-    if (mesh->GetNumberOfCells() > 0)
-    {
-      patches += mesh->GetNumberOfCells();
-      refined.push_back({block.Name, mesh});
-    }
-  }
-  blocks = std::move(refined);
-  return patches;
-}
-
-template <class Block>
-void AddPartitions(vtkPartitionedDataSetCollection* output, unsigned int index, const char* name,
-  const std::vector<Block>& blocks)
-{
-  vtkNew<vtkPartitionedDataSet> partitions;
-  partitions->SetNumberOfPartitions(static_cast<unsigned int>(blocks.size()));
-  for (unsigned int i = 0; i < blocks.size(); ++i)
-  {
-    if constexpr (std::is_same_v<Block, smokevis::SmokeBlock>)
-    {
-      partitions->SetPartition(i, blocks[i].Grid);
-    }
-    else
-    {
-      partitions->SetPartition(i, blocks[i].Mesh);
-    }
-    partitions->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), blocks[i].Name.c_str());
-  }
-  output->SetPartitionedDataSet(index, partitions);
-  output->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name);
-}
-
-/// Leaves every so many-th block, which a view of a parallel run is to draw.
-void DivideBlocks(vtkPartitionedDataSetCollection& output, const std::pair<int, int>& piece)
-{
-  for (unsigned int i = 0; i < output.GetNumberOfPartitionedDataSets(); ++i)
-  {
-    for (unsigned int j = 0; j < output.GetNumberOfPartitions(i); ++j)
-    {
-      if (static_cast<int>(j) % piece.second != piece.first)
-      {
-        output.SetPartition(i, j, static_cast<vtkDataObject*>(nullptr));
-      }
-    }
-  }
-}
 
 } // namespace
 
@@ -272,11 +151,12 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 {
   SceneBlocks smokeOnly;
   smokeOnly.Smoke = blocks.Smoke;
-  const double smoke = Diagonal(smokeOnly);
+  const double smoke = smokevis::Diagonal(smokeOnly);
   for (int i = 0; i < surfaces->GetNumberOfInformationObjects(); ++i)
   {
-    const double model =
-      Diagonal(smokevis::CollectSurfaces(vtkDataObject::GetData(surfaces, i), "Surfaces"));
+    SceneBlocks modelOnly;
+    modelOnly.Surfaces = smokevis::CollectSurfaces(vtkDataObject::GetData(surfaces, i), "Surfaces");
+    const double model = smokevis::Diagonal(modelOnly);
     if (model > 0.0 && (model > SuspiciousRatio * smoke || smoke > SuspiciousRatio * model))
     {
       vtkWarningMacro(<< "Surfaces: input " << i + 1 << " is " << model
@@ -310,54 +190,9 @@ void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
 }
 
 //------------------------------------------------------------------------------
-void vtkSmokeLightField::Solve(
-  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+smokevis::SceneOptions vtkSmokeLightField::Options(
+  vtkDataObject* smoke, std::vector<smokevis::WorkItem>& report) const
 {
-  this->CheckProperties();
-  std::vector<smokevis::WorkItem> report;
-  vtkDataObject* const smoke = vtkDataObject::GetData(inputs[0]);
-  SceneBlocks blocks;
-  blocks.Smoke = smokevis::CollectSmoke(smoke, "Smoke");
-  blocks.Surfaces = CollectPort(inputs[1], "Surfaces");
-  blocks.Emitters = CollectPort(inputs[2], "Emitters");
-  if (blocks.Smoke.empty())
-  {
-    throw Error("Smoke", "the input holds no grid",
-      "Connect a reader of smoke, or an image with Extinction 0 for clear air");
-  }
-  this->WarnOfUnits(blocks, inputs[1]);
-  bool smokeEmits = false;
-  for (const smokevis::SmokeBlock& block : blocks.Smoke)
-  {
-    smokeEmits = smokeEmits || block.Grid->GetCellData()->HasArray("EmittedLuminance");
-  }
-
-  const double patchSize =
-    this->PatchSize > 0.0 ? this->PatchSize : Diagonal(blocks) / AutomaticPatches;
-  for (const SurfaceBlock& block : blocks.Surfaces)
-  {
-    AddDefaultReflectance(*block.Mesh, this->DefaultReflectance);
-  }
-  report.push_back({"Surface patches", static_cast<double>(Refine(blocks.Surfaces, patchSize)),
-    "surfaces are cut to edges of at most " + std::to_string(patchSize) + " m"});
-  Refine(blocks.Emitters, std::numeric_limits<double>::infinity());
-  if (blocks.Emitters.empty() && !smokeEmits && this->SkyLuminance == 0.0)
-  {
-    throw Error("Emitters", "nothing gives light",
-      "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
-  }
-
-  std::vector<SurfaceBlock*> patches;
-  for (auto* const group : {&blocks.Surfaces, &blocks.Emitters})
-  {
-    for (SurfaceBlock& block : *group)
-    {
-      patches.push_back(&block);
-    }
-  }
-  smokevis::MatchComponents(patches, "Reflectance");
-  smokevis::MatchComponents(patches, "Luminance");
-
   smokevis::SceneOptions options;
   options.Bands = this->Bands;
   if (this->Bands == RGB)
@@ -383,23 +218,40 @@ void vtkSmokeLightField::Solve(
     }
   }
   report.push_back({"Albedo", options.Albedo, why});
+  return options;
+}
 
-  double cells = 0.0;
-  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::Solve(
+  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+{
+  this->CheckProperties();
+  std::vector<smokevis::WorkItem> report;
+  vtkDataObject* const smoke = vtkDataObject::GetData(inputs[0]);
+  SceneBlocks blocks;
+  blocks.Smoke = smokevis::CollectSmoke(smoke, "Smoke");
+  blocks.Surfaces = smokevis::CollectPort(inputs[1], "Surfaces");
+  blocks.Emitters = smokevis::CollectPort(inputs[2], "Emitters");
+  if (blocks.Smoke.empty())
   {
-    cells += static_cast<double>(block.Grid->GetNumberOfCells());
+    throw Error("Smoke", "the input holds no grid",
+      "Connect a reader of smoke, or an image with Extinction 0 for clear air");
   }
-  double count = 0.0;
-  for (const SurfaceBlock* const block : patches)
+  this->WarnOfUnits(blocks, inputs[1]);
+
+  const double patchSize =
+    this->PatchSize > 0.0 ? this->PatchSize : smokevis::Diagonal(blocks) / AutomaticPatches;
+  smokevis::AddDefaultReflectance(blocks.Surfaces, this->DefaultReflectance);
+  report.push_back(
+    {"Surface patches", static_cast<double>(smokevis::CutIntoPatches(blocks, patchSize)),
+      "surfaces are cut to edges of at most " + std::to_string(patchSize) + " m"});
+  if (blocks.Emitters.empty() && !smokevis::SmokeEmits(blocks) && this->SkyLuminance == 0.0)
   {
-    count += static_cast<double>(block->Mesh->GetNumberOfCells());
+    throw Error("Emitters", "nothing gives light",
+      "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
   }
-  smokevis::RequireMemory("light field",
-    "the light of " + std::to_string(std::llround(cells)) + " smoke cells and " +
-      std::to_string(std::llround(count)) + " surface patches",
-    cells * (CellBytes + CellBandBytes * this->Bands) +
-      count * (PatchBytes + PatchBandBytes * this->Bands),
-    "Give coarser smoke, one band or a larger PatchSize");
+  const smokevis::SceneOptions options = this->Options(smoke, report);
+  smokevis::RequireMemoryForLight(blocks, this->Bands);
 
   smokevis::SceneDescription description = smokevis::BuildScene(blocks, options);
   if (this->Bands == RGB && smokevis::BandsAreEqual(description))
@@ -422,51 +274,9 @@ void vtkSmokeLightField::Solve(
     this->SolveBlocks(std::move(description), blocks, report);
     last = {blocks, this->Tolerance, this->SkipNeedlessWork, this->Seed, this->Bands};
   }
-
-  output->SetNumberOfPartitionedDataSets(3);
-  AddPartitions(output, 0, "Smoke", blocks.Smoke);
-  AddPartitions(output, 1, "Surfaces", blocks.Surfaces);
-  AddPartitions(output, 2, "Emitters", blocks.Emitters);
-
-  // File formats drop the field data of a collection, so a block of each kind has them as well.
-  std::vector<vtkDataObject*> targets = {output};
-  for (unsigned int i = 0; i < output->GetNumberOfPartitionedDataSets(); ++i)
-  {
-    if (output->GetNumberOfPartitions(i) > 0)
-    {
-      targets.push_back(output->GetPartitionAsDataObject(i, 0));
-    }
-  }
-  for (vtkDataObject* const target : targets)
-  {
-    vtkNew<vtkFieldData> fields;
-    fields->PassData(target->GetFieldData());
-    fields->PassData(smoke->GetFieldData());
-    target->SetFieldData(fields);
-    smokevis::AddFieldNumber(*target, "Albedo", {options.Albedo});
-    smokevis::AddFieldNumber(*target, "AngstromExponent", {this->AngstromExponent});
-    smokevis::AddFieldNumber(*target, "Bands", {static_cast<double>(this->Bands)});
-    const smokevis::Spectrum& scale = options.ExtinctionScale;
-    if (this->Bands == RGB)
-    {
-      smokevis::AddFieldNumber(*target, "ExtinctionScale", {scale[0], scale[1], scale[2]});
-    }
-    else
-    {
-      smokevis::AddFieldNumber(*target, "ExtinctionScale", {scale[0]});
-    }
-    smokevis::AddFieldNumber(*target, "SkyLuminance", {this->SkyLuminance});
-    smokevis::AddFieldNumber(*target, "Tolerance", {this->Tolerance});
-    smokevis::AddFieldNumber(*target, "Seed", {static_cast<double>(this->Seed)});
-    vtkInformation* const info = smoke->GetInformation();
-    if (info->Has(vtkDataObject::DATA_TIME_STEP()))
-    {
-      const double time = info->Get(vtkDataObject::DATA_TIME_STEP());
-      smokevis::AddFieldNumber(*target, "Time", {time});
-      target->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    }
-    smokevis::AddWorkReport(*target, report);
-  }
+  smokevis::AddBlocks(*output, blocks);
+  smokevis::AddFields(
+    *output, *smoke, {options, this->AngstromExponent, this->Tolerance, this->Seed}, report);
 }
 
 //------------------------------------------------------------------------------
@@ -496,15 +306,8 @@ int vtkSmokeLightField::RequestData(
       own.MadeWith = 0;
       const auto start = std::chrono::steady_clock::now();
       ranks.Together(this, [&] { this->Solve(inputVector, output); });
-      if (ranks.Count() > 1)
-      {
-        constexpr double kibibyte = 1024.0;
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        const double bytes = kibibyte * static_cast<double>(output->GetActualMemorySize());
-        smokevis::ReportRanks(*output->GetFieldData(),
-          {ranks.Each(taken.count()), "each process solves the whole light field"},
-          {ranks.Each(bytes), "each process holds the whole light field"});
-      }
+      smokevis::ReportRanks(ranks, *output,
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       own.Kept.Keep(outputVector, 0);
       own.MadeOf = contents;
       own.MadeWith = this->GetMTime();
@@ -513,7 +316,7 @@ int vtkSmokeLightField::RequestData(
     {
       own.Kept.Show(outputVector, 0);
     }
-    DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
+    smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
     return 1;
   }
   catch (const std::exception& error)
@@ -521,7 +324,7 @@ int vtkSmokeLightField::RequestData(
     if (this->GetAbortOutput())
     {
       this->Implementation->Kept.Restore(this, outputVector, 0);
-      DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
+      smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
       return 1;
     }
     this->Implementation->Kept.Clear();

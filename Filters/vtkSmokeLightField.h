@@ -48,6 +48,7 @@ namespace smokevis
 {
 struct SceneBlocks;
 struct SceneDescription;
+struct SceneOptions;
 struct WorkItem;
 } // namespace smokevis
 
@@ -188,6 +189,9 @@ private:
   /// Warns where an input of surfaces is more than a hundred times larger or smaller than the
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
+  /// What the properties, and the smoke's own albedo, make of the scene.
+  smokevis::SceneOptions Options(
+    vtkDataObject* smoke, std::vector<smokevis::WorkItem>& report) const;
   void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
   /// Solves the light field of a scene and stores it in the scene's blocks.
   void SolveBlocks(smokevis::SceneDescription description, const smokevis::SceneBlocks& blocks,
