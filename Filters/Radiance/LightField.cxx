@@ -255,13 +255,17 @@ int Solver::Settle(
   int done = 0;
   for (int window = FirstWindow;; window *= 2)
   {
-    for (BatchState& batch : batches)
-    {
-      batch.Restart();
-    }
     const int first = done;
     for (; done < first + window; ++done)
     {
+      // The first sweeps differ much: each is balanced by its own loss.
+      if (done == first || first == 0)
+      {
+        for (BatchState& batch : batches)
+        {
+          batch.Restart();
+        }
+      }
       this->Sweep(sweep, batches, key + done);
       if (first == 0)
       {
@@ -279,8 +283,9 @@ int Solver::Settle(
     }
     if (done + 2 * window > MostSweeps)
     {
-      // Noise may hide a small drift to the end; a drift that shows is none of it.
-      if (drift.Estimate < limit)
+      // Noise may hide a small drift to the end, or feign one; only a drift that stands out of it
+      // is refused.
+      if (drift.LowerBound < limit)
       {
         return done;
       }

@@ -97,39 +97,48 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
 
 BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
 {
-  double signal = 0.0;
-  double noise = 0.0;
-  double spread = 0.0;
+  // The square of the mean drift, without its noise, is the mean over pairs of batches of the
+  // product of their drifts. That over all pairs, and over those without each of the batches:
   double weights = 0.0;
+  double square = 0.0;
+  std::vector<double> without(Batches, 0.0);
+  std::vector<double> drifts(Batches);
   for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
     const Block& block = this->Blocks_[index];
-    const std::vector<double>& before = earlier.Blocks_[index].Multiple;
-    const double now = MeanOf(block.Multiple);
-    const double then = MeanOf(before);
-    const double all = std::max(0.0, now) + block.Direct;
+    const double all = std::max(0.0, MeanOf(block.Multiple)) + block.Direct;
     if (!(all > 0.0))
     {
       continue;
     }
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t batch = 0; batch < drifts.size(); ++batch)
+    {
+      drifts[batch] = (block.Multiple[batch] - earlier.Blocks_[index].Multiple[batch]) / all;
+      sum += drifts[batch];
+      squares += drifts[batch] * drifts[batch];
+    }
     // Blocks count by how well they are known, those known better than asked for all alike.
-    const double variance =
-      (VarianceOf(block.Multiple, now) + VarianceOf(before, then)) / (all * all);
-    const double weight = 1.0 / std::max(variance, resolution * resolution);
+    const double weight =
+      1.0 / std::max(VarianceOf(drifts, MeanOf(drifts)), resolution * resolution);
     weights += weight;
-    signal += weight * (now - then) * (now - then) / (all * all);
-    noise += weight * variance;
-    spread += weight * variance * weight * variance;
+    square += weight * (sum * sum - squares) / (Batches * (Batches - 1.0));
+    for (std::size_t batch = 0; batch < drifts.size(); ++batch)
+    {
+      const double rest = sum - drifts[batch];
+      const double restSquares = squares - drifts[batch] * drifts[batch];
+      without[batch] += weight * (rest * rest - restSquares) / ((Batches - 1.0) * (Batches - 2.0));
+    }
   }
   if (weights == 0.0)
   {
     return {};
   }
-  // Noise alone makes the signal the sum of the weighted variances (times 15/13, since they come
-  // from 16 batches), give or take the root of twice the sum of their squares.
-  constexpr double excess = (Batches - 1.0) / (Batches - 3.0);
-  const double known = std::max(0.0, signal - excess * noise);
-  return {std::sqrt(known / weights), std::sqrt((known + 2.0 * std::sqrt(2.0 * spread)) / weights)};
+  // Blocks drift together: how far noise moves the estimate is told by a jackknife over batches.
+  const double deviation = (Batches - 1.0) * std::sqrt(VarianceOf(without, MeanOf(without)));
+  const auto root = [weights](double value) { return std::sqrt(std::max(0.0, value) / weights); };
+  return {root(square - 2.0 * deviation), root(square), root(std::max(0.0, square) + deviation)};
 }
 
 } // namespace smokevis

@@ -23,7 +23,8 @@ public:
   /// where a block lies in the dark).
   struct Drift
   {
-    /// Noise taken out, and no less than what noise leaves open.
+    /// Noise taken out, two standard errors below that, and one above.
+    double LowerBound = 0.0;
     double Estimate = 0.0;
     double UpperBound = 0.0;
   };
