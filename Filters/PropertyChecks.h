@@ -4,6 +4,7 @@
 #include "Errors.h"
 
 #include <cmath>
+#include <string>
 
 namespace smokevis
 {
@@ -18,10 +19,11 @@ inline bool IsNotNegative(double value)
   return value >= 0.0 && std::isfinite(value);
 }
 
-/// Throws Error where a property is not good.
+/// Throws Error where a property, or what it describes, is not good.
 /// @param what   is wrong with it then
 /// @param remedy what to set it to
-inline void Check(bool isGood, const char* property, const char* what, const char* remedy)
+inline void Check(
+  bool isGood, const std::string& property, const std::string& what, const std::string& remedy)
 {
   if (!isGood)
   {
