@@ -82,6 +82,8 @@ struct RankTeam::Link
   std::deque<Sent> Outbox;
   /// Whether another process has failed or was stopped.
   bool ShouldGiveUp = false;
+  /// Whether this process has found out that it and the others do different things.
+  bool Disagrees = false;
 
   explicit Link(vtkMPIController* controller)
       : Controller(controller), Rank(controller->GetLocalProcessId()),
@@ -204,6 +206,7 @@ struct RankTeam::Link
     }
     if (!agree)
     {
+      this->Disagrees = true;
       throw Disagreement();
     }
     for (const Part& part : parts)
@@ -220,7 +223,7 @@ struct RankTeam::Link
   void Finish(vtkAlgorithm& algorithm, const std::exception_ptr& problem)
   {
     const bool isStopped = problem && algorithm.GetAbortOutput();
-    const bool follows = problem && !isStopped && this->ShouldGiveUp;
+    const bool follows = problem && !isStopped && this->ShouldGiveUp && !this->Disagrees;
     this->Tell(!problem ? Done : isStopped ? Stopped : follows ? Followed : Failed);
     for (this->Hear(); !this->AllOthers([](const Peer& peer) { return peer.HasEnded; });
          this->Hear())
