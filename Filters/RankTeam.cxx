@@ -115,36 +115,43 @@ struct RankTeam::Link
     }
   }
 
-  /// Takes in what has arrived.
+  /// Takes in what has arrived. What a process sends after its last message is for the next team.
   void Hear()
   {
-    for (;;)
+    for (int rank = 0; rank < this->Size(); ++rank)
     {
-      int arrived = 0;
-      int source = 0;
-      this->Controller->Iprobe(vtkMultiProcessController::ANY_SOURCE, Tag, &arrived, &source);
-      if (!arrived)
+      while (rank != this->Rank && !this->Peers[rank].HasEnded && this->HearOne(rank))
       {
-        return;
-      }
-      std::array<int, 2> words{};
-      this->Controller->Receive(words.data(), 2, source, Tag);
-      Peer& peer = this->Peers[source];
-      if (words[0] == Ready)
-      {
-        peer.Ready.push_back(words[1]);
-      }
-      else if (words[0] == GiveUp)
-      {
-        this->ShouldGiveUp = true;
-      }
-      else
-      {
-        peer.HasEnded = true;
-        peer.End = static_cast<Message>(words[0]);
-        this->ShouldGiveUp = this->ShouldGiveUp || peer.End != Done;
       }
     }
+  }
+
+  bool HearOne(int rank)
+  {
+    int hasArrived = 0;
+    this->Controller->Iprobe(rank, Tag, &hasArrived, nullptr);
+    if (!hasArrived)
+    {
+      return false;
+    }
+    std::array<int, 2> words{};
+    this->Controller->Receive(words.data(), 2, rank, Tag);
+    Peer& peer = this->Peers[rank];
+    if (words[0] == Ready)
+    {
+      peer.Ready.push_back(words[1]);
+    }
+    else if (words[0] == GiveUp)
+    {
+      this->ShouldGiveUp = true;
+    }
+    else
+    {
+      peer.HasEnded = true;
+      peer.End = static_cast<Message>(words[0]);
+      this->ShouldGiveUp = this->ShouldGiveUp || peer.End != Done;
+    }
+    return true;
   }
 
   template <class Condition> bool AllOthers(Condition&& condition) const
