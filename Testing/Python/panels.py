@@ -104,10 +104,14 @@ floor = simple.FloorMapOfVisibility(
     LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), Resolution=[4, 2], EyeHeight=0.5)
 shown = simple.Show(floor, view)
 assert shown.Representation == "Surface", shown.Representation
-assert simple.ImportPresets(filename=os.path.join(folder, "ColorMaps", "FMV.json"))
-simple.ColorBy(shown, ("POINTS", "Visibility"))
+# Shown, it has the colours of the preset, which do not follow the data: 0.2 is the threshold.
+assert list(shown.ColorArrayName) == ["POINTS", "Visibility"], shown.ColorArrayName
 colors = simple.GetColorTransferFunction("Visibility")
+assert colors.AutomaticRescaleRangeMode == "Never" and shown.LookupTable == colors
+points = list(colors.RGBPoints)
+assert simple.ImportPresets(filename=os.path.join(folder, "ColorMaps", "FMV.json"))
 assert colors.ApplyPreset("FMV", False)
+assert numpy.allclose(points, list(colors.RGBPoints)), points
 table = colors.GetClientSideObject()
 
 
@@ -122,6 +126,25 @@ for value in (0.21, 0.5, 0.9):
     assert max(color(value)) - min(color(value)) < 1e-6, color(value)
 assert color(0.9)[0] > color(0.5)[0] > color(0.21)[0]
 assert color(0.1) == color(0.19) and color(0.1)[0] > 2 * color(0.1)[1]
+
+# What users have saved comes first; their own settings, of the highest priority, are not to be touched here.
+settings = simple.servermanager.vtkSMSettings.GetInstance()
+own = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
+assert settings.AddCollectionFromString(
+    '{"array_lookup_tables": {"LeastVisibility": {"PVLookupTable": {"RGBPoints": %s}}}}' % own, 0.5)
+assert list(simple.GetColorTransferFunction("LeastVisibility").RGBPoints) == own
+
+# Signs are bright, images grey, and what others make of the map's places has a legend.
+for emitters in (simple.ExitSign(), simple.Luminaire()):
+    shown = simple.Show(emitters, view)
+    assert list(shown.ColorArrayName) == ["CELLS", "Luminance"], shown.ColorArrayName
+    assert list(shown.LookupTable.RGBPoints)[1:4] == [0, 0, 0], list(shown.LookupTable.RGBPoints)
+    assert list(shown.LookupTable.RGBPoints)[-3:] == [1, 1, 1], list(shown.LookupTable.RGBPoints)
+shown = simple.Show(simple.JinVisibility(LightField=floor.LightField, FloorMap=floor), view)
+assert list(shown.ColorArrayName) == ["POINTS", "JinDifference"], shown.ColorArrayName
+assert shown.LookupTable.InterpretValuesAsCategories == 1
+assert shown.LookupTable.Annotations[:4] == ["0", "seen by both", "1", "by the practice only"]
+assert len(shown.LookupTable.IndexedColors) == 21 and len(shown.LookupTable.Annotations) == 14
 
 # --- the area of a map, as a box in the view ----------------------------------------------------------
 # The box begins around the light field, here the tunnel of 4 x 1 x 1 m, and comes in place of Bounds.
