@@ -153,7 +153,8 @@ int Solver::Settle(
     const double limit = DriftShare * this->Options_.Tolerance;
     const BlockMeans::Drift drift =
       first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
-    if (first > 0 && drift.UpperBound < limit)
+    // A drift that noise does not hide would make the error bars, which tell noise, too small.
+    if (first > 0 && drift.UpperBound < limit && drift.LowerBound == 0.0)
     {
       return done;
     }
