@@ -34,6 +34,10 @@ constexpr int MostSweeps = 768;
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
+/// Standard errors of the veil that the same drift may be. All batches drift alike, so that their
+/// spread does not tell it; what is left to drift is a small part of what has been, and over 200
+/// seeds error bars hold with this.
+constexpr double DriftErrors = 2.0;
 /// Cells along the edges of the blocks that share ways to the lights.
 constexpr int BlockEdge = 8;
 /// Shares of the progress bar.
@@ -58,7 +62,8 @@ private:
   std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
   void SolvePatches();
   void SolveMultiple(int band);
-  int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
+    std::vector<BatchState>& batches, std::uint64_t key);
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
   bool BandsEqual(int a, int b) const;
   const DirectField& Inside();
@@ -247,13 +252,13 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
   this->CheckStop();
 }
 
-int Solver::Settle(
-  const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
+int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
+  std::vector<BatchState>& batches, std::uint64_t key)
 {
   const PowerBalance balance(this->Scene_, sweep, band);
   BlockMeans earlier;
   int done = 0;
-  for (int window = FirstWindow;; window *= 2)
+  for (int window = FirstWindow;;)
   {
     const int first = done;
     for (; done < first + window; ++done)
@@ -277,7 +282,8 @@ int Solver::Settle(
     const double limit = DriftShare * this->Options_.Tolerance;
     const BlockMeans::Drift drift =
       first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
-    if (first > 0 && drift.UpperBound < limit)
+    const bool tolerable = first > 0 && drift.UpperBound < limit;
+    if (tolerable && drift.Estimate < DriftErrors * probes.RelativeError(batches))
     {
       return done;
     }
@@ -298,6 +304,7 @@ int Solver::Settle(
       balance.ScaleLatest(batches);
     }
     earlier = std::move(now);
+    window = tolerable ? window : 2 * window;
   }
 }
 
@@ -344,9 +351,9 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  int done = this->Settle(sweep, band, batches, key);
-  const int settling = done - batches.front().Counted;
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
+  int done = this->Settle(sweep, band, probes, batches, key);
+  const int settling = done - batches.front().Counted;
   double error = probes.RelativeError(batches);
   while (error > ErrorShare * this->Options_.Tolerance && done < MostSweeps)
   {
