@@ -28,6 +28,13 @@ namespace smokevis
 namespace
 {
 
+/// What was done to make data, and how long it took, is not part of them.
+bool IsReport(vtkAbstractArray* array)
+{
+  return array && array->GetName() &&
+         std::string_view(array->GetName()).substr(0, 10) == "WorkReport";
+}
+
 /// Calls a function with every array of a data object: attributes, field data, points, coordinates
 /// and cells.
 template <class Visit> void VisitArrays(vtkDataObject* data, Visit&& visit)
@@ -36,7 +43,10 @@ template <class Visit> void VisitArrays(vtkDataObject* data, Visit&& visit)
   {
     for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
     {
-      visit(arrays->GetAbstractArray(i));
+      if (!IsReport(arrays->GetAbstractArray(i)))
+      {
+        visit(arrays->GetAbstractArray(i));
+      }
     }
   };
   fields(data->GetFieldData());

@@ -1,6 +1,8 @@
 // Keeps the last whole output of an algorithm, to show it again where new work is given up.
 #pragma once
 
+#include "Errors.h"
+
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -9,16 +11,69 @@
 #include <vtkTimeStamp.h>
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 #include <vector>
 
 namespace smokevis
 {
+
+/// Thrown where a filter upstream was aborted, and put out what it had before.
+class StoppedUpstream : public Error
+{
+public:
+  using Error::Error;
+};
 
 /// VTK empties the outputs of an algorithm before it works and after it was aborted. Whoever stops
 /// work that takes long wants the former picture back instead.
 class KeptOutput
 {
 public:
+  /// For RequestData: does the work that fills all outputs, keeps them and returns 1. Where the
+  /// work was stopped, here or upstream, what was kept comes back. Any other error is reported,
+  /// once, and leaves the outputs empty; then 0 is returned.
+  int Produce(
+    vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<void()>& work)
+  {
+    const int ports = outputs->GetNumberOfInformationObjects();
+    const auto restore = [&]
+    {
+      for (int port = 0; port < ports; ++port)
+      {
+        this->Restore(algorithm, outputs, port);
+      }
+      return 1;
+    };
+    try
+    {
+      work();
+      for (int port = 0; port < ports; ++port)
+      {
+        this->Keep(outputs, port);
+      }
+      return 1;
+    }
+    catch (const StoppedUpstream&)
+    {
+      return restore();
+    }
+    catch (const std::exception& error)
+    {
+      if (algorithm->GetAbortOutput())
+      {
+        return restore();
+      }
+      this->Clear();
+      for (int port = 0; port < ports; ++port)
+      {
+        vtkDataObject::GetData(outputs, port)->Initialize();
+      }
+      vtkErrorWithObjectMacro(algorithm, << error.what());
+      return 0;
+    }
+  }
+
   /// Notes an output that is whole. Arrays are shared, not copied.
   void Keep(vtkInformationVector* outputs, int port)
   {

@@ -5,8 +5,6 @@
 #include "LightFieldArrays.h"
 #include "SceneBuilder.h"
 
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -90,23 +88,6 @@ SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks)
 }
 
 //------------------------------------------------------------------------------
-std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters)
-{
-  std::map<int, std::string> names;
-  for (const SurfaceBlock& block : emitters)
-  {
-    auto* const texts =
-      vtkStringArray::SafeDownCast(block.Mesh->GetCellData()->GetAbstractArray("SignName"));
-    vtkDataArray* const ids = block.Mesh->GetCellData()->GetArray("SignId");
-    for (vtkIdType i = 0; texts && ids && i < ids->GetNumberOfTuples(); ++i)
-    {
-      names.emplace(static_cast<int>(ids->GetComponent(i, 0)), texts->GetValue(i));
-    }
-  }
-  return names;
-}
-
-//------------------------------------------------------------------------------
 void LightFieldInput::Load(vtkDataObject* input)
 {
   SceneBlocks blocks;
@@ -141,14 +122,6 @@ void LightFieldInput::Load(vtkDataObject* input)
   {
     this->Light_.push_back({array, array->GetMTime()});
   }
-}
-
-//------------------------------------------------------------------------------
-std::string LightFieldInput::SignName(int id) const
-{
-  const auto found = this->SignNames_.find(id);
-  return found == this->SignNames_.end() || found->second.empty() ? "Sign " + std::to_string(id)
-                                                                  : found->second;
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include "SceneBlocks.h"
 #include "SceneKeeper.h"
+#include "SignList.h"
 #include "View.h"
 
 #include <vtkDataArray.h>
@@ -36,8 +37,8 @@ public:
 
   /// Bands that the last input was made with; the view has fewer where they came out equal.
   int Bands() const { return this->Bands_; }
-  /// What a sign of the last input is called.
-  std::string SignName(int id) const;
+  /// The signs of the last input.
+  SignList Signs() const { return ListSigns(this->View_->TheScene(), this->SignNames_); }
   /// The ids of the signs of the last input, for messages.
   std::string SignIds() const;
 
@@ -66,9 +67,6 @@ private:
 /// Describes the scene of a light field, whose parts `blocks` receives. Throws Error where the
 /// input is not the output of SmokeLightField.
 SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks);
-
-/// The names that emitters give to the ids of signs.
-std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters);
 
 /// A number of field data of a light field, in the collection's own field data or, where a file
 /// format dropped those, in those of a block. Returns false where there is none.

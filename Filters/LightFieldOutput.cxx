@@ -3,6 +3,7 @@
 
 #include "LightField.h"
 #include "LightFieldInput.h"
+#include "RankReport.h"
 #include "Ranks.h"
 
 #include <vtkFieldData.h>
@@ -10,7 +11,6 @@
 #include <vtkNew.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
-#include <vtkStringArray.h>
 
 #include <string>
 #include <type_traits>
@@ -103,23 +103,13 @@ void AddFields(vtkPartitionedDataSetCollection& output, vtkDataObject& smoke,
 //------------------------------------------------------------------------------
 void ReportRanks(const Ranks& ranks, vtkPartitionedDataSetCollection& output, double seconds)
 {
-  constexpr double kibibyte = 1024.0;
-  const std::vector<double> each = ranks.Each(seconds);
-  const std::vector<double> bytes =
-    ranks.Each(kibibyte * static_cast<double>(output.GetActualMemorySize()));
-  vtkFieldData* const fields = output.GetFieldData();
-  auto* const what = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhat"));
-  auto* const why = vtkStringArray::SafeDownCast(fields->GetAbstractArray("WorkReportWhy"));
-  vtkDataArray* const count = fields->GetArray("WorkReportCount");
-  for (int rank = 0; rank < ranks.Count() && ranks.Count() > 1; ++rank)
+  if (ranks.Count() > 1)
   {
-    const std::string process = " of process " + std::to_string(rank);
-    what->InsertNextValue("seconds" + process);
-    count->InsertNextTuple1(each[rank]);
-    why->InsertNextValue("each process solves the whole light field");
-    what->InsertNextValue("bytes" + process);
-    count->InsertNextTuple1(bytes[rank]);
-    why->InsertNextValue("each process holds the whole light field");
+    constexpr double kibibyte = 1024.0;
+    const double bytes = kibibyte * static_cast<double>(output.GetActualMemorySize());
+    ReportRanks(*output.GetFieldData(),
+      {ranks.Each(seconds), "each process solves the whole light field"},
+      {ranks.Each(bytes), "each process holds the whole light field"});
   }
 }
 

@@ -2,6 +2,7 @@
 #include "SignPlate.h"
 
 #include "Errors.h"
+#include "PropertyChecks.h"
 #include "SignFigures.h"
 
 #include <algorithm>
@@ -48,35 +49,27 @@ std::vector<double> BarLines(const SignPlate& sign)
 
 void CheckSign(const SignPlate& sign, const std::string& name)
 {
-  const auto check = [&name](bool good, const std::string& what, const std::string& remedy)
-  {
-    if (!good)
-    {
-      throw Error(name, what, remedy);
-    }
-  };
-  const auto length = [](double value) { return value > 0.0 && std::isfinite(value); };
-  check(length(sign.Width) && length(sign.Height), "its width or height is not a positive length",
-    "Give both in metres");
-  check(sign.Id >= 0, "its id is negative", "Give an id from 0; -1 stands for lamps");
-  check(sign.Uniformity > 0.0 && sign.Uniformity <= 1.0, "its uniformity is outside 0 to 1",
+  Check(IsPositive(sign.Width) && IsPositive(sign.Height), name,
+    "its width or height is not a positive length", "Give both in metres");
+  Check(sign.Id >= 0, name, "its id is negative", "Give an id from 0; -1 stands for lamps");
+  Check(sign.Uniformity > 0.0 && sign.Uniformity <= 1.0, name, "its uniformity is outside 0 to 1",
     "Give the least over the greatest luminance, such as 0.1, or 1 for an even plate");
-  check(sign.EmissionExponent >= 0.0 && std::isfinite(sign.EmissionExponent),
+  Check(IsNotNegative(sign.EmissionExponent), name,
     "its emission exponent is negative or not finite", "Give 0 for a diffuse plate");
-  check(sign.FigureHeight >= 0.0 && std::isfinite(sign.FigureHeight),
-    "its figure height is negative or not finite", "Give metres, or 0 for as large as fits");
+  Check(IsNotNegative(sign.FigureHeight), name, "its figure height is negative or not finite",
+    "Give metres, or 0 for as large as fits");
   if (sign.Pattern == SignPattern::Barcode)
   {
-    check(sign.Bars >= 1 && sign.Bars <= MaximumBars,
+    Check(sign.Bars >= 1 && sign.Bars <= MaximumBars, name,
       "its number of bars is outside 1 to " + std::to_string(MaximumBars),
       "Give an odd number, such as 9");
-    check(sign.BarFraction > 0.0 && sign.BarFraction < 1.0,
+    Check(sign.BarFraction > 0.0 && sign.BarFraction < 1.0, name,
       "its bar fraction is not between 0 and 1",
       "Give the width of a bar over that of a bar and a gap");
   }
-  check(sign.Pattern != SignPattern::Square ||
+  Check(sign.Pattern != SignPattern::Square ||
           (sign.SquareFraction > 0.0 && sign.SquareFraction <= 1.0),
-    "its square fraction is outside 0 to 1",
+    name, "its square fraction is outside 0 to 1",
     "Give the side of the lit square over the plate's shorter side");
 }
 

@@ -3,7 +3,7 @@
 // are asked for one by one from RequestData.
 #pragma once
 
-#include "Errors.h"
+#include "KeptOutput.h"
 
 #include <vtkInformationVector.h>
 
@@ -27,13 +27,6 @@ std::vector<double> ChooseSteps(
 
 /// For RequestUpdateExtent: asks for all of the input at a time.
 void AskForTime(vtkInformationVector* input, double time);
-
-/// Thrown where a filter upstream was aborted, and put out what it had before.
-class StoppedUpstream : public Error
-{
-public:
-  using Error::Error;
-};
 
 /// For RequestData: brings all of the input to a time. Throws Error where a filter upstream fails,
 /// StoppedUpstream where one was aborted.

@@ -8,6 +8,8 @@
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "PipelineProgress.h"
+#include "PointArrays.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 #include "WholeInput.h"
 
@@ -16,7 +18,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 
@@ -46,38 +47,6 @@ constexpr double SignBytes = 2 * 4 * sizeof(float);
 
 using smokevis::Error;
 using smokevis::Vec3;
-
-/// Adds an array with a component a sign, named after the signs where there are several.
-void AddFloats(vtkImageData* image, const char* name, const std::vector<float>& values,
-  const std::vector<std::string>& components = {""})
-{
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(static_cast<int>(components.size()));
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  for (std::size_t i = 0; i < components.size(); ++i)
-  {
-    if (!components[i].empty())
-    {
-      array->SetComponentName(static_cast<vtkIdType>(i), components[i].c_str());
-    }
-  }
-  image->GetPointData()->AddArray(array);
-}
-
-template <class Value>
-void AddInts(vtkImageData* image, const char* name, const std::vector<Value>& values)
-{
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    array->SetValue(i, static_cast<int>(values[i]));
-  }
-  image->GetPointData()->AddArray(array);
-}
 
 } // namespace
 
@@ -127,24 +96,17 @@ int vtkFloorMapOfVisibility::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkFloorMapOfVisibility::CheckProperties() const
 {
-  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
-  {
-    if (!good)
-    {
-      throw Error(name, what, remedy);
-    }
-  };
-  const auto notNegative = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  check(this->Resolution[0] > 0 && this->Resolution[1] > 0, "Resolution", "it is not positive",
-    "Give the number of places along x and y");
-  check(static_cast<double>(this->Resolution[0]) * this->Resolution[1] <= MaximumValues,
+  smokevis::Check(this->Resolution[0] > 0 && this->Resolution[1] > 0, "Resolution",
+    "it is not positive", "Give the number of places along x and y");
+  smokevis::Check(static_cast<double>(this->Resolution[0]) * this->Resolution[1] <= MaximumValues,
     "Resolution", "the map has more than 100 million places", "Give fewer places");
-  check(std::isfinite(this->EyeHeight), "EyeHeight", "it is not finite", "Give it in metres");
-  check(notNegative(this->ContrastThreshold), "ContrastThreshold", "it is negative",
-    "Give 0.2 for the point of disappearance");
-  check(notNegative(this->ThresholdSpread), "ThresholdSpread", "it is negative",
-    "Give 0.04, or 0 for observers who are all alike");
-  check(notNegative(this->CutOff), "CutOff", "it is negative", "Give 0 to compute all signs");
+  smokevis::Check(
+    std::isfinite(this->EyeHeight), "EyeHeight", "it is not finite", "Give it in metres");
+  smokevis::CheckNotNegative(
+    this->ContrastThreshold, "ContrastThreshold", "Give 0.2 for the point of disappearance");
+  smokevis::CheckNotNegative(
+    this->ThresholdSpread, "ThresholdSpread", "Give 0.04, or 0 for observers who are all alike");
+  smokevis::CheckNotNegative(this->CutOff, "CutOff", "Give 0 to compute all signs");
 }
 
 //------------------------------------------------------------------------------
@@ -249,34 +211,27 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     map.Report.push_back({"seconds of process " + std::to_string(rank), seconds[rank],
       "for " + std::to_string(end - first) + " places"});
   }
-  const std::vector<smokevis::Sign>& signs = view->TheScene().Lights().Signs();
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);
   output->SetDimensions(options.PlacesX, options.PlacesY, 1);
-  std::vector<std::string> names;
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("SignIds");
-  for (const smokevis::Sign& sign : signs)
-  {
-    names.push_back(this->Implementation->Input.SignName(sign.Id));
-    ids->InsertNextValue(sign.Id);
-  }
-  AddFloats(output, "Visibility", map.Visibility);
-  AddFloats(output, "VisibilityError", map.VisibilityError);
-  AddFloats(output, "VisibleProbability", map.VisibleProbability);
-  AddFloats(output, "EyeLuminance", map.EyeLuminance);
-  AddInts(output, "BestSign", map.BestSign);
-  AddFloats(output, "Contrast", map.Contrast, names);
-  AddFloats(output, "PerceivedContrast", map.PerceivedContrast, names);
-  AddFloats(output, "SignLuminance", map.SignLuminance, names);
-  AddFloats(output, "VisibleFraction", map.VisibleFraction, names);
-  AddFloats(output, "OpticalDepth", map.OpticalDepth);
-  AddFloats(output, "JinVisibility", map.JinVisibility);
-  AddInts(output, "Status", map.Status);
+  const smokevis::SignList signs = this->Implementation->Input.Signs();
+  smokevis::AddPointValues<vtkFloatArray>(*output, "Visibility", map.Visibility);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "VisibilityError", map.VisibilityError);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "VisibleProbability", map.VisibleProbability);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "EyeLuminance", map.EyeLuminance);
+  smokevis::AddPointValues<vtkIntArray>(*output, "BestSign", map.BestSign);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "Contrast", map.Contrast, signs.Names);
+  smokevis::AddPointValues<vtkFloatArray>(
+    *output, "PerceivedContrast", map.PerceivedContrast, signs.Names);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "SignLuminance", map.SignLuminance, signs.Names);
+  smokevis::AddPointValues<vtkFloatArray>(
+    *output, "VisibleFraction", map.VisibleFraction, signs.Names);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "OpticalDepth", map.OpticalDepth);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "JinVisibility", map.JinVisibility);
+  smokevis::AddPointValues<vtkIntArray>(*output, "Status", map.Status);
   output->GetPointData()->SetActiveScalars("Visibility");
-  output->GetFieldData()->AddArray(ids);
-  smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddSignList(*output, signs);
   smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
   std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
   report.insert(report.end(), map.Report.begin(), map.Report.end());
@@ -287,43 +242,27 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
 int vtkFloorMapOfVisibility::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   Internals& own = *this->Implementation;
   const smokevis::Identity identity = smokevis::IdentityOf(input);
-  try
+  const auto work = [&]
   {
     // A parallel run asks for the whole and for pieces in turn: the work is done once.
     const bool isNew =
       !own.Kept.Has(0) || own.MadeOf != identity || own.MadeWith != this->GetMTime();
-    if (smokevis::Ranks().Most(isNew ? 1 : 0) > 0)
-    {
-      own.MadeWith = 0;
-      this->Compute(input, output);
-      own.Kept.Keep(outputVector, 0);
-      own.MadeOf = identity;
-      own.MadeWith = this->GetMTime();
-    }
-    else
+    if (smokevis::Ranks().Most(isNew ? 1 : 0) == 0)
     {
       own.Kept.Show(outputVector, 0);
+      return;
     }
-    smokevis::LeaveToFirstPiece(outputVector);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      this->Implementation->Kept.Restore(this, outputVector, 0);
-      smokevis::LeaveToFirstPiece(outputVector);
-      return 1;
-    }
-    this->Implementation->Kept.Clear();
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+    own.MadeWith = 0;
+    this->Compute(input, vtkImageData::GetData(outputVector));
+    own.MadeOf = identity;
+    own.MadeWith = this->GetMTime();
+  };
+  const int done = own.Kept.Produce(this, outputVector, work);
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
 }
 
 //------------------------------------------------------------------------------

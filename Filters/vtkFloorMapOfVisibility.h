@@ -114,8 +114,8 @@ public:
 
   ///@{
   /**
-   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is averaged.
-   * Default: 1.
+   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is
+   * averaged. Default: 1.
    */
   vtkSetMacro(Acuity, double);
   vtkGetMacro(Acuity, double);

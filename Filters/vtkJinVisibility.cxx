@@ -4,8 +4,11 @@
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
+#include "PointArrays.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 #include "SightLine.h"
+#include "SignList.h"
 #include "SliceSampler.h"
 #include "WholeInput.h"
 #include "vtkFloorMapOfVisibility.h"
@@ -42,22 +45,6 @@ using smokevis::Vec3;
 
 constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr int Categories = vtkJinVisibility::NOT_KNOWN + 1;
-
-template <class Array>
-Array* AddArray(
-  vtkImageData* image, const char* name, const std::vector<std::string>& components = {})
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(std::max(1, static_cast<int>(components.size())));
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  for (std::size_t i = 0; i < components.size(); ++i)
-  {
-    array->SetComponentName(static_cast<vtkIdType>(i), components[i].c_str());
-  }
-  image->GetPointData()->AddArray(array);
-  return array;
-}
 
 /// The category of a place, from what the map says of it and whether the practice sees a sign.
 int Compare(int status, bool inView, bool seen)
@@ -155,21 +142,14 @@ int vtkJinVisibility::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkJinVisibility::CheckProperties() const
 {
-  const auto positive = [](double value, const char* name, const char* remedy)
-  {
-    if (!(value > 0.0 && std::isfinite(value)))
-    {
-      throw Error(name, "it is not positive", remedy);
-    }
-  };
-  positive(this->VisibilityFactor, "VisibilityFactor", "Give 3 for signs that reflect, 8 for lit");
-  positive(this->InherentContrast, "InherentContrast", "Give 1 for a black plate with lit parts");
-  positive(this->LiminalContrast, "LiminalContrast", "Give 0.02, after Koschmieder");
-  positive(this->MaximumVisibility, "MaximumVisibility", "Give metres, 30 as FDS does");
-  if (!(this->SliceTolerance >= 0.0 && std::isfinite(this->SliceTolerance)))
-  {
-    throw Error("SliceTolerance", "it is negative", "Give metres from 0");
-  }
+  smokevis::CheckPositive(
+    this->VisibilityFactor, "VisibilityFactor", "Give 3 for signs that reflect, 8 for lit");
+  smokevis::CheckPositive(
+    this->InherentContrast, "InherentContrast", "Give 1 for a black plate with lit parts");
+  smokevis::CheckPositive(this->LiminalContrast, "LiminalContrast", "Give 0.02, after Koschmieder");
+  smokevis::CheckPositive(
+    this->MaximumVisibility, "MaximumVisibility", "Give metres, 30 as FDS does");
+  smokevis::CheckNotNegative(this->SliceTolerance, "SliceTolerance", "Give metres from 0");
 }
 
 //------------------------------------------------------------------------------
@@ -185,37 +165,30 @@ void vtkJinVisibility::Compute(
   }
   smokevis::SceneBlocks blocks;
   const smokevis::Scene scene(smokevis::DescribeScene(lightField, blocks));
-  const std::map<int, std::string> given = smokevis::ReadSignNames(blocks.Emitters);
   const std::vector<smokevis::Sign>& signs = scene.Lights().Signs();
   if (signs.empty())
   {
     throw Error("LightField", "it holds no sign",
       "Give emitters with a SignId from 0, such as the source ExitSign makes");
   }
-  std::vector<std::string> names;
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("SignIds");
-  for (const smokevis::Sign& sign : signs)
-  {
-    const auto found = given.find(sign.Id);
-    names.push_back(found == given.end() || found->second.empty()
-                      ? "Sign " + std::to_string(sign.Id)
-                      : found->second);
-    ids->InsertNextValue(sign.Id);
-  }
+  const smokevis::SignList list =
+    smokevis::ListSigns(scene, smokevis::ReadSignNames(blocks.Emitters));
 
   output->CopyStructure(map);
-  auto* const inView = AddArray<vtkIntArray>(output, "InView", names);
-  auto* const distance = AddArray<vtkFloatArray>(output, "SightDistance", names);
-  auto* const extinction = AddArray<vtkFloatArray>(output, "MeanExtinction", names);
-  auto* const visibility = AddArray<vtkFloatArray>(output, "JinVisibility", names);
-  auto* const depth = AddArray<vtkFloatArray>(output, "OpticalDepth");
-  auto* const best = AddArray<vtkIntArray>(output, "JinSign");
-  auto* const contrast = AddArray<vtkFloatArray>(output, "BeerLambertContrast");
-  auto* const local = AddArray<vtkFloatArray>(output, "FDSVisibility");
-  auto* const jin = AddArray<vtkIntArray>(output, "JinDifference");
-  auto* const beer = AddArray<vtkIntArray>(output, "BeerLambertDifference");
-  auto* const fds = AddArray<vtkIntArray>(output, "FDSDifference");
+  auto* const inView = smokevis::AddPointArray<vtkIntArray>(*output, "InView", list.Names);
+  auto* const distance =
+    smokevis::AddPointArray<vtkFloatArray>(*output, "SightDistance", list.Names);
+  auto* const extinction =
+    smokevis::AddPointArray<vtkFloatArray>(*output, "MeanExtinction", list.Names);
+  auto* const visibility =
+    smokevis::AddPointArray<vtkFloatArray>(*output, "JinVisibility", list.Names);
+  auto* const depth = smokevis::AddPointArray<vtkFloatArray>(*output, "OpticalDepth");
+  auto* const best = smokevis::AddPointArray<vtkIntArray>(*output, "JinSign");
+  auto* const contrast = smokevis::AddPointArray<vtkFloatArray>(*output, "BeerLambertContrast");
+  auto* const local = smokevis::AddPointArray<vtkFloatArray>(*output, "FDSVisibility");
+  auto* const jin = smokevis::AddPointArray<vtkIntArray>(*output, "JinDifference");
+  auto* const beer = smokevis::AddPointArray<vtkIntArray>(*output, "BeerLambertDifference");
+  auto* const fds = smokevis::AddPointArray<vtkIntArray>(*output, "FDSDifference");
   const std::vector<float> sampled =
     smokevis::SampleSlices(slices, "VISIBILITY", map, this->SliceTolerance);
 
@@ -273,8 +246,7 @@ void vtkJinVisibility::Compute(
     });
 
   output->GetPointData()->SetActiveScalars("JinDifference");
-  output->GetFieldData()->AddArray(ids);
-  smokevis::AddFieldTexts(*output, "SignNames", names);
+  smokevis::AddSignList(*output, list);
   smokevis::AddFieldNumber(*output, "VisibilityFactor", {this->VisibilityFactor});
   smokevis::AddFieldTexts(*output, "DifferenceNames",
     {"seen by both", "seen by the practice only", "seen by the map only", "seen by neither",
@@ -289,27 +261,14 @@ void vtkJinVisibility::Compute(
 int vtkJinVisibility::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkImageData* const output = vtkImageData::GetData(outputVector);
-  try
-  {
-    this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
-      vtkDataObject::GetData(inputVector[2]), output);
-    this->Implementation->Kept.Keep(outputVector, 0);
-    smokevis::LeaveToFirstPiece(outputVector);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
+  const int done = this->Implementation->Kept.Produce(this, outputVector,
+    [&]
     {
-      this->Implementation->Kept.Restore(this, outputVector, 0);
-      return 1;
-    }
-    this->Implementation->Kept.Clear();
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+      this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
+        vtkDataObject::GetData(inputVector[2]), vtkImageData::GetData(outputVector));
+    });
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
 }
 
 //------------------------------------------------------------------------------

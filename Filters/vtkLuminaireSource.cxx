@@ -5,6 +5,7 @@
 #include "PhotometricArrays.h"
 #include "PhotometricFile.h"
 #include "PlateMesh.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 
 #include <vtkCellData.h>
@@ -133,20 +134,12 @@ vtkLuminaireSource::~vtkLuminaireSource()
 //------------------------------------------------------------------------------
 void vtkLuminaireSource::CheckProperties(double width, double height) const
 {
-  const auto length = [](double value) { return value > 0.0 && std::isfinite(value); };
-  if (!length(width) || !length(height))
-  {
-    throw Error("lamp", "its width or height is not a positive length", "Give both in metres");
-  }
-  if (!(this->LuminousFlux >= 0.0) || !std::isfinite(this->LuminousFlux))
-  {
-    throw Error(
-      "lamp", "its luminous flux is negative or not finite", "Give a flux in lumens, from 0");
-  }
-  if (!(this->Reflectance >= 0.0 && this->Reflectance <= 1.0))
-  {
-    throw Error("lamp", "its reflectance is outside 0 to 1", "Give a diffuse reflectance");
-  }
+  smokevis::Check(smokevis::IsPositive(width) && smokevis::IsPositive(height), "lamp",
+    "its width or height is not a positive length", "Give both in metres");
+  smokevis::Check(smokevis::IsNotNegative(this->LuminousFlux), "lamp",
+    "its luminous flux is negative or not finite", "Give a flux in lumens, from 0");
+  smokevis::Check(this->Reflectance >= 0.0 && this->Reflectance <= 1.0, "lamp",
+    "its reflectance is outside 0 to 1", "Give a diffuse reflectance");
   const double size[2] = {width, height};
   for (int axis = 0; axis < 2; ++axis)
   {

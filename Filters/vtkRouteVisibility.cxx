@@ -1,12 +1,15 @@
 #include "vtkRouteVisibility.h"
 
-#include "Errors.h"
+#include "EyeProperties.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "PipelineProgress.h"
+#include "PointArrays.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 #include "RouteInput.h"
 #include "RouteWalk.h"
+#include "SignList.h"
 #include "StepWalk.h"
 #include "WholeInput.h"
 
@@ -17,7 +20,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -38,15 +40,7 @@ struct vtkRouteVisibility::Internals
 namespace
 {
 
-using smokevis::Error;
 using smokevis::RouteWalker;
-
-/// Signs of the light field in the order of the components.
-struct SignList
-{
-  std::vector<int> Ids;
-  std::vector<std::string> Names;
-};
 
 /// Adds a point array; `value` tells the value of a component at a place of a walker.
 template <class Array>
@@ -54,15 +48,8 @@ void AddPoints(vtkPolyData* output, const std::vector<RouteWalker>& walkers, con
   const std::function<double(const RouteWalker&, std::size_t, int)>& value,
   const std::vector<std::string>& components = {})
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  const int width = std::max(1, static_cast<int>(components.size()));
-  array->SetNumberOfComponents(width);
-  array->SetNumberOfTuples(output->GetNumberOfPoints());
-  for (std::size_t i = 0; i < components.size(); ++i)
-  {
-    array->SetComponentName(static_cast<vtkIdType>(i), components[i].c_str());
-  }
+  Array* const array = smokevis::AddPointArray<Array>(*output, name, components);
+  const int width = array->GetNumberOfComponents();
   vtkIdType tuple = 0;
   for (const RouteWalker& walker : walkers)
   {
@@ -74,10 +61,10 @@ void AddPoints(vtkPolyData* output, const std::vector<RouteWalker>& walkers, con
       }
     }
   }
-  output->GetPointData()->AddArray(array);
 }
 
-void AddArrays(vtkPolyData* output, const std::vector<RouteWalker>& walkers, const SignList& signs)
+void AddArrays(
+  vtkPolyData* output, const std::vector<RouteWalker>& walkers, const smokevis::SignList& signs)
 {
   const auto width = signs.Ids.size();
   AddPoints<vtkDoubleArray>(output, walkers, "Time",
@@ -220,30 +207,15 @@ int vtkRouteVisibility::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkRouteVisibility::CheckProperties() const
 {
-  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
-  {
-    if (!good)
-    {
-      throw Error(name, what, remedy);
-    }
-  };
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  const auto notNegative = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  check(std::isfinite(this->StartTime), "StartTime", "it is not finite", "Give seconds");
-  check(positive(this->WalkingSpeed), "WalkingSpeed", "it is not positive",
-    "Give metres a second, such as 1.19");
-  check(positive(this->SpeedVisibilityFactor), "SpeedVisibilityFactor", "it is not positive",
+  smokevis::Check(std::isfinite(this->StartTime), "StartTime", "it is not finite", "Give seconds");
+  smokevis::CheckPositive(this->WalkingSpeed, "WalkingSpeed", "Give metres a second, such as 1.19");
+  smokevis::CheckPositive(this->SpeedVisibilityFactor, "SpeedVisibilityFactor",
     "Give 2 for what reflects light, 8 for what emits it");
-  check(notNegative(this->EyeHeight), "EyeHeight", "it is negative", "Give metres above the floor");
-  check(positive(this->SampleSpacing), "SampleSpacing", "it is not positive", "Give metres");
-  check(positive(this->SampleInterval), "SampleInterval", "it is not positive", "Give seconds");
-  check(notNegative(this->ContrastThreshold), "ContrastThreshold", "it is negative",
-    "Give 0.2 for the point of disappearance");
-  check(notNegative(this->DarkLuminance), "DarkLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
-  check(notNegative(this->Acuity), "Acuity", "it is negative", "Give minutes of arc from 0");
-  check(notNegative(this->AdaptationLuminance), "AdaptationLuminance", "it is negative",
-    "Give a luminance in cd/m2 from 0");
+  smokevis::CheckNotNegative(this->EyeHeight, "EyeHeight", "Give metres above the floor");
+  smokevis::CheckPositive(this->SampleSpacing, "SampleSpacing", "Give metres");
+  smokevis::CheckPositive(this->SampleInterval, "SampleInterval", "Give seconds");
+  smokevis::CheckNotNegative(
+    this->ContrastThreshold, "ContrastThreshold", "Give 0.2 for the point of disappearance");
 }
 
 //------------------------------------------------------------------------------
@@ -264,7 +236,9 @@ void vtkRouteVisibility::Compute(
   options.Law = static_cast<smokevis::SpeedLaw>(this->SpeedLaw);
   options.SpeedFactor = this->SpeedVisibilityFactor;
   options.ContrastThreshold = this->ContrastThreshold;
-  options.Eye = {this->DarkLuminance, vtkMath::RadiansFromDegrees(this->Acuity / 60.0)};
+  smokevis::Adaptation state;
+  state.Luminance = this->AdaptationLuminance;
+  options.Eye = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
   options.AdaptationLuminance = this->AdaptationLuminance;
   smokevis::RouteWalk walk(std::move(walkers), options);
 
@@ -314,20 +288,11 @@ void vtkRouteVisibility::Compute(
     }
   }
 
-  SignList signs;
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("SignIds");
-  for (const smokevis::Sign& sign : after.Light->TheScene().Lights().Signs())
-  {
-    signs.Ids.push_back(sign.Id);
-    signs.Names.push_back(inputs[current].SignName(sign.Id));
-    ids->InsertNextValue(sign.Id);
-  }
+  const smokevis::SignList signs = inputs[current].Signs();
   AddLines(output, walk.Walkers());
   AddArrays(output, walk.Walkers(), signs);
   AddSummary(output, walk.Walkers(), this->ContrastThreshold);
-  output->GetFieldData()->AddArray(ids);
-  smokevis::AddFieldTexts(*output, "SignNames", signs.Names);
+  smokevis::AddSignList(*output, signs);
   smokevis::AddFieldNumber(*output, "ContrastThreshold", {this->ContrastThreshold});
   vtkNew<vtkDoubleArray> times;
   times->SetName("TimeStepsUsed");
@@ -342,31 +307,14 @@ void vtkRouteVisibility::Compute(
 int vtkRouteVisibility::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPolyData* const output = vtkPolyData::GetData(outputVector);
-  try
-  {
-    this->Compute(inputVector[0], vtkDataObject::GetData(inputVector[1]), output);
-    this->Implementation->Kept.Keep(outputVector, 0);
-    smokevis::LeaveToFirstPiece(outputVector);
-    return 1;
-  }
-  catch (const smokevis::StoppedUpstream&)
-  {
-    this->Implementation->Kept.Restore(this, outputVector, 0);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
+  const int done = this->Implementation->Kept.Produce(this, outputVector,
+    [&]
     {
-      this->Implementation->Kept.Restore(this, outputVector, 0);
-      return 1;
-    }
-    this->Implementation->Kept.Clear();
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+      this->Compute(
+        inputVector[0], vtkDataObject::GetData(inputVector[1]), vtkPolyData::GetData(outputVector));
+    });
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
 }
 
 //------------------------------------------------------------------------------

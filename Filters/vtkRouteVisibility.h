@@ -141,8 +141,8 @@ public:
   ///@{
   /**
    * Luminance that the eye is adapted to where the route begins, such as that of a lit room
-   * [cd/m2], from 0; the eye adapts to the dark on the way, as in vtkFloorMapOfVisibility. Default:
-   * 0.
+   * [cd/m2], 0 to 1e12; the eye adapts to the dark on the way, as in vtkFloorMapOfVisibility.
+   * Default: 0.
    */
   vtkSetMacro(AdaptationLuminance, double);
   vtkGetMacro(AdaptationLuminance, double);

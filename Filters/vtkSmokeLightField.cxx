@@ -7,6 +7,7 @@
 #include "LightFieldInput.h"
 #include "LightFieldOutput.h"
 #include "PipelineProgress.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
@@ -117,33 +118,27 @@ int vtkSmokeLightField::RequestUpdateExtent(
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::CheckProperties() const
 {
-  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
-  {
-    if (!good)
-    {
-      throw Error(name, what, remedy);
-    }
-  };
-  check(this->Albedo <= 1.0, "Albedo", "it is above 1", "Give 0 to 1, or -1 for the smoke's own");
-  check(std::abs(this->AngstromExponent) <= 10.0, "AngstromExponent", "it is outside -10 to 10",
-    "Give 1 for soot of flaming fires");
-  check(this->Bands == LUMINANCE || this->Bands == RGB, "Bands", "it is neither 1 nor 3",
+  smokevis::Check(
+    this->Albedo <= 1.0, "Albedo", "it is above 1", "Give 0 to 1, or -1 for the smoke's own");
+  smokevis::Check(std::abs(this->AngstromExponent) <= 10.0, "AngstromExponent",
+    "it is outside -10 to 10", "Give 1 for soot of flaming fires");
+  smokevis::Check(this->Bands == LUMINANCE || this->Bands == RGB, "Bands", "it is neither 1 nor 3",
     "Choose Luminance or RGB");
   for (const double wavelength : this->Wavelengths)
   {
-    check(wavelength > 0.0 && std::isfinite(wavelength), "Wavelengths", "one is not positive",
+    smokevis::Check(smokevis::IsPositive(wavelength), "Wavelengths", "one is not positive",
       "Give wavelengths in nm");
   }
-  check(this->DefaultReflectance >= 0.0 && this->DefaultReflectance <= 1.0, "DefaultReflectance",
-    "it is outside 0 to 1", "Give a diffuse reflectance");
-  check(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance",
+  smokevis::Check(this->DefaultReflectance >= 0.0 && this->DefaultReflectance <= 1.0,
+    "DefaultReflectance", "it is outside 0 to 1", "Give a diffuse reflectance");
+  smokevis::Check(this->Tolerance > 0.0 && this->Tolerance <= 1.0, "Tolerance",
     "it is not above 0 and at most 1", "Give 0.01 for 1 %");
-  check(this->SkyLuminance >= 0.0 && std::isfinite(this->SkyLuminance), "SkyLuminance",
+  smokevis::Check(smokevis::IsNotNegative(this->SkyLuminance), "SkyLuminance",
     "it is negative or not finite", "Give a luminance in cd/m2, or 0 for a dark outside");
-  check(this->Seed >= 0, "Seed", "it is negative", "Give a whole number from 0");
-  check(this->PatchSize >= 0.0 && std::isfinite(this->PatchSize), "PatchSize",
+  smokevis::Check(this->Seed >= 0, "Seed", "it is negative", "Give a whole number from 0");
+  smokevis::Check(smokevis::IsNotNegative(this->PatchSize), "PatchSize",
     "it is negative or not finite", "Give a length in metres, or 0 for an automatic one");
-  check(this->Threads >= 0, "Threads", "it is negative", "Give 0 for all of the machine");
+  smokevis::Check(this->Threads >= 0, "Threads", "it is negative", "Give 0 for all of the machine");
 }
 
 //------------------------------------------------------------------------------
@@ -283,10 +278,10 @@ void vtkSmokeLightField::Solve(
 int vtkSmokeLightField::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector);
+  auto* const output = vtkPartitionedDataSetCollection::GetData(outputVector);
   Internals& own = *this->Implementation;
   const smokevis::Ranks ranks;
-  try
+  const auto work = [&]
   {
     // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
     // the same contents its former output is divided in another way, and nothing else is done.
@@ -301,37 +296,22 @@ int vtkSmokeLightField::RequestData(
     }
     const bool isNew = ranks.Count() == 1 || !own.Kept.Has(0) || own.MadeOf != contents ||
                        own.MadeWith != this->GetMTime();
-    if (ranks.Most(isNew ? 1 : 0) > 0)
-    {
-      own.MadeWith = 0;
-      const auto start = std::chrono::steady_clock::now();
-      ranks.Together(this, [&] { this->Solve(inputVector, output); });
-      smokevis::ReportRanks(ranks, *output,
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-      own.Kept.Keep(outputVector, 0);
-      own.MadeOf = contents;
-      own.MadeWith = this->GetMTime();
-    }
-    else
+    if (ranks.Most(isNew ? 1 : 0) == 0)
     {
       own.Kept.Show(outputVector, 0);
+      return;
     }
-    smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      this->Implementation->Kept.Restore(this, outputVector, 0);
-      smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
-      return 1;
-    }
-    this->Implementation->Kept.Clear();
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+    own.MadeWith = 0;
+    const auto start = std::chrono::steady_clock::now();
+    ranks.Together(this, [&] { this->Solve(inputVector, output); });
+    smokevis::ReportRanks(ranks, *output,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    own.MadeOf = contents;
+    own.MadeWith = this->GetMTime();
+  };
+  const int done = own.Kept.Produce(this, outputVector, work);
+  smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));
+  return done;
 }
 
 //------------------------------------------------------------------------------

@@ -4,34 +4,29 @@
 #include "Errors.h"
 #include "Eye.h"
 #include "EyeProperties.h"
+#include "ImageOutput.h"
 #include "ImageTracer.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PipelineProgress.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
-#include "SceneBlocks.h"
+#include "SignChoice.h"
 #include "ThinLens.h"
 #include "WholeInput.h"
 
-#include <vtkCellData.h>
 #include <vtkExecutive.h>
-#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 vtkStandardNewMacro(vtkVisibilityImage);
@@ -61,90 +56,12 @@ constexpr double ThresholdSpread = 0.04;
 constexpr double LargestMargin = 1000.0;
 /// Lenses in air end at 0.5.
 constexpr double SmallestFNumber = 0.1;
-constexpr std::size_t NoSign = static_cast<std::size_t>(-1);
-
 using smokevis::Error;
 using smokevis::Vec3;
-
-/// Entry of the list of signs that leaves the choice to TargetSign.
-const char* const ById = "(by id)";
-
-/// Ids and names of the signs of a light field.
-std::map<int, std::string> SignNames(vtkDataObject* lightField)
-{
-  std::map<int, std::string> names;
-  vtkDataObject* const emitters = smokevis::FindBlock(lightField, "Emitters");
-  for (const smokevis::SurfaceBlock& block : smokevis::CollectSurfaces(emitters, "Emitters"))
-  {
-    vtkCellData* const cells = block.Mesh->GetCellData();
-    vtkDataArray* const ids = cells->GetArray("SignId");
-    auto* const texts = vtkStringArray::SafeDownCast(cells->GetAbstractArray("SignName"));
-    for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
-    {
-      const int id = static_cast<int>(ids->GetComponent(i, 0));
-      if (id >= 0)
-      {
-        const std::string name = texts ? std::string(texts->GetValue(i)) : std::string();
-        names.emplace(id, name.empty() ? "Sign " + std::to_string(id) : name);
-      }
-    }
-  }
-  return names;
-}
 
 Vec3 Vector(const double* values)
 {
   return {values[0], values[1], values[2]};
-}
-
-void AddFloats(
-  vtkImageData* image, const char* name, const std::vector<float>& values, int components = 1)
-{
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  if (components == 3)
-  {
-    array->SetComponentName(0, "R");
-    array->SetComponentName(1, "G");
-    array->SetComponentName(2, "B");
-  }
-  image->GetPointData()->AddArray(array);
-}
-
-/// Index of the sign with an id.
-std::size_t FindSign(const smokevis::View& view, int id)
-{
-  const auto& signs = view.TheScene().Lights().Signs();
-  const auto found = std::find_if(
-    signs.begin(), signs.end(), [id](const smokevis::Sign& sign) { return sign.Id == id; });
-  return found == signs.end() ? NoSign : static_cast<std::size_t>(found - signs.begin());
-}
-
-/// The sign that most pixels show, or none.
-int LargestSign(const std::vector<int>& signIds)
-{
-  std::map<int, std::size_t> pixels;
-  for (const int id : signIds)
-  {
-    if (id >= 0)
-    {
-      ++pixels[id];
-    }
-  }
-  int largest = -1;
-  std::size_t most = 0;
-  for (const auto& [id, count] : pixels)
-  {
-    if (count > most)
-    {
-      most = count;
-      largest = id;
-    }
-  }
-  return largest;
 }
 
 } // namespace
@@ -153,7 +70,7 @@ int LargestSign(const std::vector<int>& signIds)
 vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
-  this->SetTargetSignName(ById);
+  this->SetTargetSignName(smokevis::SignById);
 }
 
 //------------------------------------------------------------------------------
@@ -168,34 +85,11 @@ vtkStringArray* vtkVisibilityImage::GetSignList()
 {
   vtkStringArray* const list = this->Implementation->SignList;
   list->Initialize();
-  list->InsertNextValue(ById);
-  for (const auto& [id, name] : SignNames(this->GetInputDataObject(0, 0)))
+  for (const std::string& entry : smokevis::SignChoices(this->GetInputDataObject(0, 0)))
   {
-    list->InsertNextValue(std::to_string(id) + ": " + name);
+    list->InsertNextValue(entry);
   }
   return list;
-}
-
-//------------------------------------------------------------------------------
-int vtkVisibilityImage::Target(vtkDataObject* input) const
-{
-  const std::string wanted = this->TargetSignName ? this->TargetSignName : "";
-  if (wanted.empty() || wanted == ById)
-  {
-    return this->TargetSign;
-  }
-  std::string known;
-  for (const auto& [id, name] : SignNames(input))
-  {
-    const std::string entry = std::to_string(id) + ": " + name;
-    if (wanted == entry || wanted == name)
-    {
-      return id;
-    }
-    known += (known.empty() ? "'" : ", '") + entry + "'";
-  }
-  throw Error("TargetSignName", "there is no sign '" + wanted + "'",
-    "The signs of this light field: " + (known.empty() ? "none" : known));
 }
 
 //------------------------------------------------------------------------------
@@ -260,37 +154,31 @@ void vtkVisibilityImage::UseModel(double sensor[2], int size[2]) const
 //------------------------------------------------------------------------------
 void vtkVisibilityImage::CheckProperties() const
 {
-  const auto check = [](bool good, const char* name, const char* what, const char* remedy)
-  {
-    if (!good)
-    {
-      throw Error(name, what, remedy);
-    }
-  };
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  const auto notNegative = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  check(this->ImageSize[0] > 0 && this->ImageSize[1] > 0, "ImageSize", "it is not positive",
-    "Give a width and a height in pixels");
-  check(static_cast<std::int64_t>(this->ImageSize[0]) * this->ImageSize[1] <= MaximumPixels,
+  smokevis::Check(this->ImageSize[0] > 0 && this->ImageSize[1] > 0, "ImageSize",
+    "it is not positive", "Give a width and a height in pixels");
+  smokevis::Check(
+    static_cast<std::int64_t>(this->ImageSize[0]) * this->ImageSize[1] <= MaximumPixels,
     "ImageSize", "the image has more than 100 million pixels", "Give a smaller image");
-  check(std::all_of(this->CameraPosition, this->CameraPosition + 3,
-          [](double value) { return std::isfinite(value); }),
+  smokevis::Check(std::all_of(this->CameraPosition, this->CameraPosition + 3,
+                    [](double value) { return std::isfinite(value); }),
     "CameraPosition", "it is not finite", "Give a point in metres");
-  check(positive(this->FocalLength), "FocalLength", "it is not positive", "Give it in mm");
-  check(positive(this->SensorSize[0]) && positive(this->SensorSize[1]), "SensorSize",
-    "it is not positive", "Give it in mm");
-  check(this->FNumber >= SmallestFNumber && std::isfinite(this->FNumber), "FNumber",
+  smokevis::CheckPositive(this->FocalLength, "FocalLength", "Give it in mm");
+  smokevis::Check(
+    smokevis::IsPositive(this->SensorSize[0]) && smokevis::IsPositive(this->SensorSize[1]),
+    "SensorSize", "it is not positive", "Give it in mm");
+  smokevis::Check(this->FNumber >= SmallestFNumber && std::isfinite(this->FNumber), "FNumber",
     "it is less than 0.1", "Give 2.8, for example; no lens is below 0.5");
-  check(this->Margin >= 0.0 && this->Margin <= LargestMargin, "Margin", "it is not from 0 to 1000",
-    "Give a share of the sign's size");
-  check(this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
-  check(notNegative(this->FocusDistance), "FocusDistance", "it is negative",
-    "Give metres from the sensor, or 0 for infinity");
-  check(notNegative(this->ExposureTime), "ExposureTime", "it is negative",
-    "Give seconds, or 0 for a metered exposure");
-  check(positive(this->ISO), "ISO", "it is not positive", "Give 100, for example");
-  check(notNegative(this->ReadNoise), "ReadNoise", "it is negative",
-    "Give a share of the saturating exposure, or 0");
+  smokevis::Check(this->Margin >= 0.0 && this->Margin <= LargestMargin, "Margin",
+    "it is not from 0 to 1000", "Give a share of the sign's size");
+  smokevis::Check(
+    this->PixelBinning > 0, "PixelBinning", "it is not positive", "Give 1 for every pixel");
+  smokevis::CheckNotNegative(
+    this->FocusDistance, "FocusDistance", "Give metres from the sensor, or 0 for infinity");
+  smokevis::CheckNotNegative(
+    this->ExposureTime, "ExposureTime", "Give seconds, or 0 for a metered exposure");
+  smokevis::CheckPositive(this->ISO, "ISO", "Give 100, for example");
+  smokevis::CheckNotNegative(
+    this->ReadNoise, "ReadNoise", "Give a share of the saturating exposure, or 0");
 }
 
 //------------------------------------------------------------------------------
@@ -319,13 +207,14 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     throw Error("CameraPosition", "it lies inside a solid", "Move the camera into the open");
   }
 
-  const int target = this->Target(input);
+  const int target =
+    smokevis::ChooseSign(this->TargetSignName ? this->TargetSignName : "", this->TargetSign, input);
   smokevis::Camera camera;
-  std::size_t sign = NoSign;
+  std::size_t sign = smokevis::NoSign;
   if (target >= 0)
   {
-    sign = FindSign(view, target);
-    if (sign == NoSign)
+    sign = smokevis::FindSign(view, target);
+    if (sign == smokevis::NoSign)
     {
       throw Error("TargetSign", "there is no sign " + std::to_string(target),
         "The signs of this light field: " + this->Implementation->Input.SignIds());
@@ -350,39 +239,14 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     [&](smokevis::Progress& progress)
     { image = smokevis::TraceImage(view, camera, observer.Acuity, progress); });
 
-  output->SetOrigin(0.0, 0.0, 0.0);
-  output->SetSpacing(1.0, 1.0, 1.0);
-  output->SetDimensions(size[0], size[1], 1);
-  AddFloats(output, "Luminance", image.Luminance);
-  AddFloats(output, "LuminanceError", image.LuminanceError);
-  AddFloats(output, "DirectLuminance", image.Direct);
-  AddFloats(output, "VeilLuminance", image.Veil);
-  AddFloats(output, "OpticalDepth", image.OpticalDepth);
-  if (this->Implementation->Input.Bands() == 3)
-  {
-    AddFloats(output, "LuminanceRGB", image.LuminanceRGB, 3);
-  }
-  vtkNew<vtkUnsignedCharArray> mask;
-  mask->SetName("SignMask");
-  mask->SetNumberOfTuples(output->GetNumberOfPoints());
-  vtkNew<vtkIntArray> ids;
-  ids->SetName("SignIds");
-  ids->SetNumberOfTuples(output->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-  {
-    const int id = image.SignIds[i];
-    ids->SetValue(i, id);
-    mask->SetValue(i, id >= 0 && (target < 0 || id == target) ? 1 : 0);
-  }
-  output->GetPointData()->AddArray(mask);
-  output->GetPointData()->AddArray(ids);
-  output->GetPointData()->SetActiveScalars("Luminance");
+  const int bands = this->Implementation->Input.Bands();
+  smokevis::StorePixels(image, size, bands, target, *output);
 
-  const int measured = target >= 0 ? target : LargestSign(image.SignIds);
+  const int measured = target >= 0 ? target : smokevis::LargestSign(image.SignIds);
   smokevis::SignMeasurement result;
   if (measured >= 0)
   {
-    sign = FindSign(view, measured);
+    sign = smokevis::FindSign(view, measured);
     std::optional<smokevis::GlareSources> glare;
     if (this->Glare)
     {
@@ -396,49 +260,26 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
   {
     vtkWarningMacro("Sign " << target << " is not in view from here: it faces away or is hidden.");
   }
-  const auto number = [&](const char* name, std::initializer_list<double> values)
-  { smokevis::AddFieldNumber(*output, name, values); };
-  number("MeasuredSign", {static_cast<double>(measured)});
-  number("Contrast", {result.Contrast});
-  number("ContrastError", {result.ContrastError});
-  number("PerceivedContrast", {result.PerceivedContrast});
-  number("PerceivedContrastError", {result.PerceivedContrastError});
-  number("WebberContrast", {result.WebberContrast});
-  number("UL924Contrast", {result.UL924Contrast});
-  number("MeanLuminance", {result.MeanLuminance});
-  number("MeanLuminanceError", {result.MeanLuminanceError});
-  number("LitLuminance", {result.LitLuminance});
-  number("UnlitLuminance", {result.UnlitLuminance});
-  number("VisibleFraction", {result.VisibleFraction});
-  number("OpticalDepthToSign", {result.OpticalDepth});
+  smokevis::StoreMeasurement(result, measured, *output);
+  const auto number = [&](const char* name, double value)
+  { smokevis::AddFieldNumber(*output, name, {value}); };
   const smokevis::ExposureSettings exposure{this->FNumber, lens.Magnification(), this->ExposureTime,
     this->ISO, this->ReadNoise, static_cast<std::uint64_t>(this->NoiseSeed)};
-  number("SensorIlluminance", {smokevis::SensorIlluminance(result.MeanLuminance, exposure)});
+  number("SensorIlluminance", smokevis::SensorIlluminance(result.MeanLuminance, exposure));
   number("VisibleProbability",
-    {result.InView
-        ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
-        : 0.0});
-  number("EyeLuminance", {observer.DarkLuminance});
-  number("CameraPosition", {eye.x, eye.y, eye.z});
-  number("CameraForward", {camera.Forward.x, camera.Forward.y, camera.Forward.z});
-  number("CameraUp", {camera.Up.x, camera.Up.y, camera.Up.z});
-  number("CameraWindow", {camera.Left, camera.RightEdge, camera.Bottom, camera.Top});
-  number("ImageDistance", {lens.ImageDistance / Millimetre});
-  number("ObjectDistance", {lens.ObjectDistance});
-  number("Magnification", {lens.Magnification()});
+    result.InView
+      ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
+      : 0.0);
+  number("EyeLuminance", observer.DarkLuminance);
+  smokevis::StoreCamera(camera, *output);
+  number("ImageDistance", lens.ImageDistance / Millimetre);
+  number("ObjectDistance", lens.ObjectDistance);
+  number("Magnification", lens.Magnification());
 
-  const bool colour = this->Implementation->Input.Bands() == 3;
   const smokevis::Photograph taken = smokevis::TakePhotograph(
-    colour ? image.LuminanceRGB : image.Luminance, colour ? 3 : 1, exposure, response);
-  number("ShutterTime", {taken.Time});
-  photograph->CopyStructure(output);
-  photograph->GetFieldData()->DeepCopy(output->GetFieldData());
-  vtkNew<vtkUnsignedCharArray> pixels;
-  pixels->SetName("Photograph");
-  pixels->SetNumberOfComponents(colour ? 3 : 1);
-  pixels->SetNumberOfTuples(output->GetNumberOfPoints());
-  std::copy(taken.Values.begin(), taken.Values.end(), pixels->GetPointer(0));
-  photograph->GetPointData()->SetScalars(pixels);
+    bands == 3 ? image.LuminanceRGB : image.Luminance, bands, exposure, response);
+  number("ShutterTime", taken.Time);
+  smokevis::StorePhotograph(taken, bands, *output, *photograph);
 }
 
 //------------------------------------------------------------------------------
@@ -459,31 +300,15 @@ int vtkVisibilityImage::RequestData(
     return 0;
   }
   own.FailedFilter = 0;
-  try
+  const int done = own.Kept.Produce(this, outputVector,
+    [&] { smokevis::Ranks().Together(this, [&] { this->Trace(input, output, photograph); }); });
+  if (!done)
   {
-    smokevis::Ranks().Together(this, [&] { this->Trace(input, output, photograph); });
-    own.Kept.Keep(outputVector, 0);
-    own.Kept.Keep(outputVector, 1);
-    smokevis::LeaveToFirstPiece(outputVector);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      own.Kept.Restore(this, outputVector, 0);
-      own.Kept.Restore(this, outputVector, 1);
-      smokevis::LeaveToFirstPiece(outputVector);
-      return 1;
-    }
-    own.Kept.Clear();
-    output->Initialize();
-    photograph->Initialize();
     own.FailedFilter = this->GetMTime();
     own.FailedInput = inputTime;
-    vtkErrorMacro(<< error.what());
-    return 0;
   }
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
 }
 
 //------------------------------------------------------------------------------

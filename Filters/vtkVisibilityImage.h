@@ -243,8 +243,8 @@ public:
 
   ///@{
   /**
-   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is averaged.
-   * Default: 1.
+   * Smallest angle that the observer resolves [minutes of arc], 0 to 10800; finer detail is
+   * averaged. Default: 1.
    */
   vtkSetMacro(Acuity, double);
   vtkGetMacro(Acuity, double);
@@ -303,8 +303,6 @@ private:
 
   void CheckProperties() const;
   void UseModel(double sensor[2], int size[2]) const;
-  /// Id of the target sign, or -1. Throws Error where there is no sign of the name.
-  int Target(vtkDataObject* input) const;
   void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
+#include "PointArrays.h"
 #include "Ranks.h"
 #include "StepWalk.h"
 #include "VisibilityHistory.h"
@@ -15,7 +16,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 
@@ -44,24 +44,16 @@ vtkDataArray* NeededArray(vtkImageData* map, const char* name)
   return array;
 }
 
-/// Adds an array; with the array of a map, one that has a component a sign and the map's names.
-template <class Array, class Values>
-void AddArray(
-  vtkImageData* image, const char* name, const Values& values, vtkDataArray* signs = nullptr)
+/// What the components of an array are called.
+std::vector<std::string> ComponentNames(vtkDataArray* array)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(signs ? signs->GetNumberOfComponents() : 1);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  if (signs)
+  std::vector<std::string> names;
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
   {
-    array->CopyComponentNames(signs);
+    const char* const name = array->GetComponentName(i);
+    names.emplace_back(name ? name : "");
   }
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-  {
-    array->SetValue(i, static_cast<typename Array::ValueType>(values[i]));
-  }
-  image->GetPointData()->AddArray(array);
+  return names;
 }
 
 smokevis::VisibilityFrame Frame(vtkImageData* map, double time)
@@ -191,18 +183,19 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
 
   const smokevis::VisibilityHistory::Summary summary = history.Finish();
   output->CopyStructure(map);
-  AddArray<vtkDoubleArray>(output, "AvailableTime", summary.AvailableTime);
-  AddArray<vtkDoubleArray>(output, "AvailableTimeInterval", summary.AvailableTimeInterval);
-  AddArray<vtkDoubleArray>(output, "FinalLossTime", summary.FinalLossTime);
-  AddArray<vtkDoubleArray>(output, "InvisibleTime", summary.InvisibleTime);
-  AddArray<vtkIntArray>(output, "FirstSign", summary.FirstSign);
-  AddArray<vtkIntArray>(output, "LastSign", summary.LastSign);
-  AddArray<vtkFloatArray>(output, "LeastVisibility", summary.LeastVisibility);
-  AddArray<vtkIntArray>(output, "Outcome", summary.Outcome);
+  smokevis::AddPointValues<vtkDoubleArray>(*output, "AvailableTime", summary.AvailableTime);
+  smokevis::AddPointValues<vtkDoubleArray>(
+    *output, "AvailableTimeInterval", summary.AvailableTimeInterval);
+  smokevis::AddPointValues<vtkDoubleArray>(*output, "FinalLossTime", summary.FinalLossTime);
+  smokevis::AddPointValues<vtkDoubleArray>(*output, "InvisibleTime", summary.InvisibleTime);
+  smokevis::AddPointValues<vtkIntArray>(*output, "FirstSign", summary.FirstSign);
+  smokevis::AddPointValues<vtkIntArray>(*output, "LastSign", summary.LastSign);
+  smokevis::AddPointValues<vtkFloatArray>(*output, "LeastVisibility", summary.LeastVisibility);
+  smokevis::AddPointValues<vtkIntArray>(*output, "Outcome", summary.Outcome);
   if (vtkDataArray* const signs = map->GetPointData()->GetArray("PerceivedContrast"))
   {
-    AddArray<vtkDoubleArray>(
-      output, "SignAvailableTime", signHistory.Finish().AvailableTime, signs);
+    smokevis::AddPointValues<vtkDoubleArray>(
+      *output, "SignAvailableTime", signHistory.Finish().AvailableTime, ComponentNames(signs));
   }
   output->GetPointData()->SetActiveScalars("AvailableTime");
   for (const char* const name : {"SignIds", "SignNames"})
@@ -223,31 +216,10 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
 int vtkVisibilityOverTime::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkImageData* const output = vtkImageData::GetData(outputVector);
-  try
-  {
-    this->Compute(inputVector[0], output);
-    this->Implementation->Kept.Keep(outputVector, 0);
-    smokevis::LeaveToFirstPiece(outputVector);
-    return 1;
-  }
-  catch (const smokevis::StoppedUpstream&)
-  {
-    this->Implementation->Kept.Restore(this, outputVector, 0);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      this->Implementation->Kept.Restore(this, outputVector, 0);
-      return 1;
-    }
-    this->Implementation->Kept.Clear();
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  const int done = this->Implementation->Kept.Produce(this, outputVector,
+    [&] { this->Compute(inputVector[0], vtkImageData::GetData(outputVector)); });
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
 }
 
 //------------------------------------------------------------------------------

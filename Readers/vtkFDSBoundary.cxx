@@ -1,6 +1,6 @@
 #include "vtkFDSBoundary.h"
 
-#include "vtkFDSBlocks.h"
+#include "BoundaryFile.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -8,8 +8,10 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 #include <array>
+#include <utility>
 
 namespace smokevis
 {
@@ -85,54 +87,47 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-FDSBoundary::FDSBoundary(const SmvFile& index) : index_(index)
+FDSBoundary::FDSBoundary(const SmvFile& index) : FDSFileBlocks(index)
 {
-  for (const SmvBoundary& entry : index.Boundaries)
+  for (std::size_t i = 0; i < index.Boundaries.size(); ++i)
   {
-    quantities_.push_back(
-      {&entry, entry.Quantity.LongLabel + " " + index.Meshes[entry.Mesh].Name, nullptr, nullptr});
+    const SmvBoundary& entry = index.Boundaries[i];
+    Part part;
+    part.Mesh = entry.Mesh;
+    part.Name = entry.Quantity.LongLabel + " " + index.Meshes[entry.Mesh].Name;
+    part.Quantity = &entry.Quantity;
+    part.FileName = entry.File;
+    part.Entry = i;
+    this->Add(std::move(part));
   }
 }
 
 //------------------------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> FDSBoundary::Read(
-  Quantity& quantity, double time, TimeInterpolation interpolation) const
+std::unique_ptr<TimedFile> FDSBoundary::Open(const Part& part) const
 {
-  const SmvBoundary& entry = *quantity.Entry;
-  const SmvMesh& mesh = index_.Meshes[entry.Mesh];
-  if (!quantity.File)
-  {
-    quantity.File = std::make_unique<BoundaryFile>(index_.Resolve(entry.File), mesh,
-      "boundary file of " + entry.Quantity.LongLabel + " of mesh '" + mesh.Name + "'");
-    quantity.Times = std::make_unique<FrameTimes>(quantity.File->FrameTimes());
-  }
-  const FrameMix mix = quantity.Times->At(time, interpolation);
-  std::vector<float> values;
-  quantity.File->ReadFrame(mix.Frame[0], values);
-  if (mix.Weight[1] > 0.0)
-  {
-    std::vector<float> later;
-    quantity.File->ReadFrame(mix.Frame[1], later);
-    Mix(mix, later, values);
-  }
-  Patches patches(mesh, entry);
-  const float* next = values.data();
-  for (const BoundaryPatch& patch : quantity.File->Patches())
+  const SmvMesh& mesh = this->Index().Meshes[part.Mesh];
+  return std::make_unique<BoundaryFile>(this->Index().Resolve(part.FileName), mesh,
+    "boundary file of " + part.Quantity->LongLabel + " of mesh '" + mesh.Name + "'");
+}
+
+//------------------------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataSet> FDSBoundary::Build(
+  const Part& part, std::span<const float> values, double time) const
+{
+  const SmvMesh& mesh = this->Index().Meshes[part.Mesh];
+  Patches patches(mesh, this->Index().Boundaries[part.Entry]);
+  for (const BoundaryPatch& patch : static_cast<const BoundaryFile&>(*part.File).Patches())
   {
     const auto obstruction = static_cast<std::size_t>(patch.Obstruction);
     const bool known = patch.Obstruction >= 0 && obstruction < mesh.Obstructions.size();
     if (!known || IsOn(mesh.Obstructions[obstruction].Events, time))
     {
-      patches.Add(patch, next);
+      patches.Add(patch, values.data());
     }
-    next += patch.Nodes();
+    values = values.subspan(patch.Nodes());
   }
   auto walls = vtkSmartPointer<vtkPolyData>::New();
   patches.MoveTo(walls);
-  AddField(walls->GetFieldData(), "Quantity", entry.Quantity.LongLabel);
-  AddField(walls->GetFieldData(), "Unit", entry.Quantity.Unit);
-  AddField(walls->GetFieldData(), "File", entry.File);
-  AddField(walls->GetFieldData(), "Time", mix.Time);
   return walls;
 }
 

@@ -2,47 +2,24 @@
 #ifndef vtkFDSBoundary_h
 #define vtkFDSBoundary_h
 
-#include "BoundaryFile.h"
-#include "FrameTimes.h"
-#include "SmvFile.h"
-
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "vtkFDSFileBlocks.h"
 
 namespace smokevis
 {
 
-/// All boundary files of a run. They are opened when first read.
-class FDSBoundary
+/// All boundary files of a run. A block is the walls of one mesh as quadrilaterals, without those
+/// of obstructions that are not there at the time: point data named after the quantity, cell data
+/// where FDS wrote cells.
+class FDSBoundary : public FDSFileBlocks
 {
 public:
   /// @param index must outlive this object
   explicit FDSBoundary(const SmvFile& index);
 
-  /// One quantity on the walls of one mesh.
-  struct Quantity
-  {
-    const SmvBoundary* Entry = nullptr;
-    /// Quantity and mesh, e.g. "WALL TEMPERATURE fine".
-    std::string Name;
-    std::unique_ptr<BoundaryFile> File;
-    std::unique_ptr<FrameTimes> Times;
-  };
-  std::vector<Quantity>& Quantities() { return quantities_; }
-
-  /// The walls at a time as quadrilaterals, without those of obstructions that are not there then:
-  /// point data named after the quantity, cell data where FDS wrote cells. Field data name
-  /// Quantity, Unit and File.
-  vtkSmartPointer<vtkPolyData> Read(
-    Quantity& quantity, double time, TimeInterpolation interpolation) const;
-
-private:
-  const SmvFile& index_;
-  std::vector<Quantity> quantities_;
+protected:
+  std::unique_ptr<TimedFile> Open(const Part& part) const override;
+  vtkSmartPointer<vtkDataSet> Build(
+    const Part& part, std::span<const float> values, double time) const override;
 };
 
 } // namespace smokevis

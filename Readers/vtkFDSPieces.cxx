@@ -1,6 +1,7 @@
 #include "vtkFDSPieces.h"
 
 #include "FlameLight.h"
+#include "RankReport.h"
 #include "SmvFile.h"
 
 #include "vtkCommunicator.h"
@@ -97,6 +98,24 @@ FlameLight FDSPieces::Sum(const std::vector<FlameLight>& meshes) const
     sum += {received[i], received[i + 1], received[i + 2]};
   }
   return sum;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<double> FDSPieces::Each(double own) const
+{
+  std::vector<double> all(processes_, own);
+  if (processes_ > 1)
+  {
+    vtkMultiProcessController::GetGlobalController()->AllGather(&own, all.data(), 1);
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+void FDSPieces::ReportShares(const ReadingShare& own, vtkFieldData* fields) const
+{
+  ReportRanks(*fields, {this->Each(own.Seconds()), "each process reads its share of the meshes"},
+    {this->Each(static_cast<double>(own.Bytes())), "what it read of the run's files"});
 }
 
 //------------------------------------------------------------------------------------------------

@@ -2,9 +2,11 @@
 #ifndef vtkFDSPieces_h
 #define vtkFDSPieces_h
 
-#include <string>
+#include <chrono>
+#include <cstdint>
 #include <vector>
 
+class vtkFieldData;
 class vtkInformation;
 class vtkPartitionedDataSetCollection;
 
@@ -13,6 +15,26 @@ namespace smokevis
 
 class SmvFile;
 struct FlameLight;
+
+/// What reading takes this process: made when it begins, ended when it has ended.
+class ReadingShare
+{
+public:
+  /// @param bytesRead of all files so far
+  explicit ReadingShare(std::uint64_t bytesRead) : bytes_(bytesRead) {}
+  void End(std::uint64_t bytesRead)
+  {
+    bytes_ = bytesRead - bytes_;
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double Seconds() const { return seconds_; }
+  std::uint64_t Bytes() const { return bytes_; }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double seconds_ = 0.0;
+  std::uint64_t bytes_;
+};
 
 /// The part of a run's meshes that is to be read here.
 ///
@@ -47,11 +69,15 @@ public:
   /// added in the order of the meshes, so the result does not depend on the number of processes.
   FlameLight Sum(const std::vector<FlameLight>& meshes) const;
 
+  /// Adds to the work report in @p fields what reading took each process.
+  void ReportShares(const ReadingShare& own, vtkFieldData* fields) const;
+
   /// Completes the collection by the blocks that other processes read.
   /// @param owners process that has each block
   void Complete(vtkPartitionedDataSetCollection* blocks, const std::vector<int>& meshOfBlock) const;
 
 private:
+  std::vector<double> Each(double own) const;
   int Owner(int mesh) const;
 
   std::vector<int> begins_; // first mesh of each piece, and the number of meshes

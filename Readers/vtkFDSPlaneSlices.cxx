@@ -1,18 +1,19 @@
 #include "vtkFDSPlaneSlices.h"
 
-#include "vtkFDSBlocks.h"
-
 #include "Errors.h"
+#include "SliceFile.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkRectilinearGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
+#include <utility>
 
 namespace smokevis
 {
@@ -36,10 +37,11 @@ int NormalOf(const IndexRange& range)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-FDSPlaneSlices::FDSPlaneSlices(const SmvFile& index) : index_(index)
+FDSPlaneSlices::FDSPlaneSlices(const SmvFile& index) : FDSFileBlocks(index)
 {
-  for (const SmvSlice& slice : index.Slices)
+  for (std::size_t i = 0; i < index.Slices.size(); ++i)
   {
+    const SmvSlice& slice = index.Slices[i];
     const int axis = NormalOf(slice.Range);
     if (axis < 0)
     {
@@ -48,47 +50,45 @@ FDSPlaneSlices::FDSPlaneSlices(const SmvFile& index) : index_(index)
     std::ostringstream name;
     name << slice.Quantity.LongLabel << " " << index.Meshes[slice.Mesh].Name << " "
          << static_cast<char>('x' + axis) << "=" << this->Position(slice, axis);
-    planes_.push_back({&slice, name.str(), nullptr, nullptr});
+    Part part;
+    part.Mesh = slice.Mesh;
+    part.Name = name.str();
+    part.Quantity = &slice.Quantity;
+    part.FileName = slice.File;
+    part.Entry = i;
+    this->Add(std::move(part));
   }
 }
 
 //------------------------------------------------------------------------------------------------
 double FDSPlaneSlices::Position(const SmvSlice& slice, int axis) const
 {
-  const std::vector<double>& nodes = index_.Meshes[slice.Mesh].Nodes[axis];
+  const std::vector<double>& nodes = this->Index().Meshes[slice.Mesh].Nodes[axis];
   const int node = slice.Range[2 * axis];
   // A plane of cells is that below the node.
   return slice.CellCentred && node > 0 ? 0.5 * (nodes[node - 1] + nodes[node]) : nodes[node];
 }
 
 //------------------------------------------------------------------------------------------------
-vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
-  Plane& plane, double time, TimeInterpolation interpolation) const
+std::unique_ptr<TimedFile> FDSPlaneSlices::Open(const Part& part) const
 {
-  const SmvSlice& slice = *plane.Slice;
-  if (!plane.File)
+  const SmvSlice& slice = this->Index().Slices[part.Entry];
+  auto file = std::make_unique<SliceFile>(
+    this->Index().Resolve(slice.File), slice.CellCentred, "slice of " + slice.Quantity.LongLabel);
+  if (file->Range() != slice.Range)
   {
-    auto file = std::make_unique<SliceFile>(
-      index_.Resolve(slice.File), slice.CellCentred, "slice of " + slice.Quantity.LongLabel);
-    if (file->Range() != slice.Range)
-    {
-      throw Error(file->Path(), "its index range is not the one that the index gives",
-        "The two are of different runs: copy both from the same one");
-    }
-    plane.Times = std::make_unique<FrameTimes>(file->FrameTimes());
-    plane.File = std::move(file);
+    throw Error(file->Path(), "its index range is not the one that the index gives",
+      "The two are of different runs: copy both from the same one");
   }
-  const FrameMix mix = plane.Times->At(time, interpolation);
-  std::vector<float> values;
-  plane.File->ReadFrame(mix.Frame[0], values);
-  if (mix.Weight[1] > 0.0)
-  {
-    std::vector<float> later;
-    plane.File->ReadFrame(mix.Frame[1], later);
-    Mix(mix, later, values);
-  }
+  return file;
+}
 
-  const SmvMesh& mesh = index_.Meshes[slice.Mesh];
+//------------------------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataSet> FDSPlaneSlices::Build(
+  const Part& part, std::span<const float> values, double) const
+{
+  const SmvSlice& slice = this->Index().Slices[part.Entry];
+  const SmvMesh& mesh = this->Index().Meshes[slice.Mesh];
   std::array<vtkSmartPointer<vtkDoubleArray>, 3> coordinates;
   std::array<int, 3> nodes{};
   for (int axis = 0; axis < 3; ++axis)
@@ -115,10 +115,6 @@ vtkSmartPointer<vtkRectilinearGrid> FDSPlaneSlices::Read(
     slice.CellCentred ? static_cast<vtkDataSetAttributes*>(grid->GetCellData())
                       : static_cast<vtkDataSetAttributes*>(grid->GetPointData());
   attributes->SetScalars(array);
-  AddField(grid->GetFieldData(), "Quantity", slice.Quantity.LongLabel);
-  AddField(grid->GetFieldData(), "Unit", slice.Quantity.Unit);
-  AddField(grid->GetFieldData(), "File", slice.File);
-  AddField(grid->GetFieldData(), "Time", mix.Time);
   return grid;
 }
 

@@ -1,33 +1,24 @@
 #include "vtkFDSSmokeReader.h"
 
 #include "FiniteProperty.h"
-#include "vtkFDSBlocks.h"
 #include "vtkFDSDeviceTable.h"
 #include "vtkFDSPieces.h"
 #include "vtkFDSRun.h"
 #include "vtkFDSSmokeMeshes.h"
+#include "vtkFDSSmokeOutput.h"
 
 #include "Errors.h"
 #include "KeptOutput.h"
-#include "MemoryGuard.h"
-#include "PipelineProgress.h"
 
-#include "vtkDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -48,10 +39,6 @@ enum Port
 
 // FDS's default single-scattering albedo of smoke.
 constexpr double DefaultAlbedo = 0.3;
-// Memory that a mesh's arrays and the buffers for reading them take [bytes a cell].
-constexpr double CellBytes = 24.0;
-// Share of the flames' light that may go astray before it is worth a warning.
-constexpr double TolerableLoss = 0.01;
 
 } // namespace
 
@@ -310,50 +297,16 @@ int vtkFDSSmokeReader::RequestData(
 }
 
 //------------------------------------------------------------------------------------------------
-template <class Source, class Parts, class EntryOf>
 void vtkFDSSmokeReader::ReadBlocks(
-  vtkInformation* outInfo, const char* what, Source& source, Parts& parts, EntryOf&& entryOf)
+  vtkInformation* outInfo, const char* what, smokevis::FDSFileBlocks& files)
 {
-  const smokevis::SmvFile& index = this->Internals->Run.Index();
-  const double time = this->SceneTime(outInfo);
-  const auto interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
-  const smokevis::FDSPieces pieces(index, outInfo);
-  smokevis::FDSBlocks blocks;
-  std::string problems;
-  std::vector<std::string> damages;
-  for (auto& part : parts)
+  const smokevis::FDSFileBlocks::Report report = files.Publish(this->SceneTime(outInfo),
+    static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation), outInfo);
+  if (!report.LeftOut.empty())
   {
-    const auto& entry = entryOf(part);
-    vtkSmartPointer<vtkDataSet> data;
-    std::error_code missing;
-    if (entry.Mesh >= pieces.First() && entry.Mesh < pieces.End() &&
-        std::filesystem::exists(index.Resolve(entry.File), missing))
-    {
-      try
-      {
-        data = source.Read(part, time, interpolation);
-        if (!part.File->Damage().empty())
-        {
-          damages.push_back(
-            part.File->Path() + ": " + part.File->Damage() + "; the other frames are used.");
-        }
-      }
-      catch (const std::exception& error)
-      {
-        problems += (problems.empty() ? "" : "\n") + std::string(error.what());
-      }
-    }
-    blocks.Add(part.Name, entry.Mesh, data);
+    vtkWarningMacro(<< "Some " << what << " are left out: " << report.LeftOut);
   }
-  if (!problems.empty())
-  {
-    vtkWarningMacro(<< "Some " << what << " are left out: " << problems);
-  }
-  this->Warn(this->Internals->Run.NotSaidYet(damages));
-  vtkNew<vtkFieldData> fields;
-  smokevis::AddField(fields, "Time", time);
-  smokevis::AddField(fields, "CHID", index.Chid);
-  blocks.Publish(pieces, fields, time, outInfo);
+  this->Warn(this->Internals->Run.NotSaidYet(report.Damages));
 }
 
 //------------------------------------------------------------------------------------------------
@@ -373,19 +326,13 @@ void vtkFDSSmokeReader::ReadPort(int port, vtkInformation* outInfo)
   case SlicesPort:
     if (this->ReadPlaneSlices)
     {
-      smokevis::FDSPlaneSlices& slices = this->Internals->Run.Slices();
-      this->ReadBlocks(
-        outInfo, "2-D slices", slices, slices.Planes(),
-        [](const auto& plane) -> const auto& { return *plane.Slice; });
+      this->ReadBlocks(outInfo, "2-D slices", this->Internals->Run.Slices());
     }
     break;
   default:
     if (this->ReadBoundary)
     {
-      smokevis::FDSBoundary& boundary = this->Internals->Run.Boundary();
-      this->ReadBlocks(
-        outInfo, "boundary files", boundary, boundary.Quantities(),
-        [](const auto& quantity) -> const auto& { return *quantity.Entry; });
+      this->ReadBlocks(outInfo, "boundary files", this->Internals->Run.Boundary());
     }
   }
 }
@@ -415,101 +362,7 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   request.Albedo = this->Albedo >= 0.0 ? this->Albedo : index.Albedo.value_or(DefaultAlbedo);
   request.Time = this->SceneTime(outInfo);
   request.Interpolation = static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation);
-
-  using Outcome = smokevis::FDSPieces::Outcome;
-  const smokevis::FDSPieces pieces(index, outInfo);
-  std::vector<smokevis::SmokeMesh> meshes;
-  std::string problem;
-  Outcome outcome = Outcome::Good;
-  try
-  {
-    double cells = 0.0;
-    for (int i = pieces.First(); i < pieces.End(); ++i)
-    {
-      const smokevis::SmvMesh& mesh = index.Meshes[i];
-      cells += static_cast<double>(mesh.Cells(0)) * mesh.Cells(1) * mesh.Cells(2);
-    }
-    smokevis::RequireMemory(std::string("run '") + this->FileName + "'", "its smoke",
-      CellBytes * cells, "Check that the file is whole, or read the run on more machines");
-    smokevis::RunWithProgress(this, 0.0, 0.9,
-      [&](smokevis::Progress& progress)
-      { meshes = smokevis::ReadSmokeMeshes(request, pieces.First(), pieces.End(), progress); });
-  }
-  catch (const std::exception& error)
-  {
-    problem = error.what();
-    outcome = this->GetAbortOutput() ? Outcome::Aborted : Outcome::Failed;
-  }
-  // All processes go on, or none.
-  const Outcome all = pieces.Agree(outcome);
-  if (all == Outcome::Failed)
-  {
-    throw std::runtime_error(problem.empty()
-                               ? "Another process could not read its meshes; its message says why."
-                               : problem);
-  }
-  if (all == Outcome::Aborted)
-  {
-    // Perhaps by another process only.
-    this->SetAbortOutput(true);
-    throw smokevis::Error("FDS reader", "reading was stopped", "Update again to have it done");
-  }
-
-  std::vector<smokevis::FlameLight> lights(index.Meshes.size());
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-  {
-    const int mesh = pieces.First() + static_cast<int>(i);
-    lights[mesh] = meshes[i].Light;
-    // Meshes write their frames at the same time step, so times agree to rounding.
-    if (std::abs(meshes[i].Time - request.Time) > 1e-4 * std::max(1.0, std::abs(request.Time)))
-    {
-      vtkWarningMacro(<< "Mesh '" << index.Meshes[mesh].Name << "' has no frame at " << request.Time
-                      << " s: its frame at " << meshes[i].Time << " s is shown.");
-    }
-    const std::string stale =
-      flames ? run.Flames()->MissingFrame(mesh, request.Time, request.Interpolation) : "";
-    if (!stale.empty())
-    {
-      vtkWarningMacro(<< stale);
-    }
-  }
-  vtkNew<vtkFieldData> fields;
-  smokevis::AddField(fields, "ExtinctionSource", run.Smoke()->Description());
-  smokevis::AddField(fields, "Albedo", request.Albedo);
-  smokevis::AddField(fields, "Time", request.Time);
-  smokevis::AddField(fields, "CHID", index.Chid);
-  if (flames)
-  {
-    const smokevis::FlameLight light = pieces.Sum(lights);
-    smokevis::AddField(fields, "FlameSource",
-      (request.Glow ? "black body at the temperature of " : "luminous efficacy times ") +
-        run.Flames()->Description());
-    if (!request.Glow || request.Heat)
-    {
-      smokevis::AddField(fields, "FlameHeatRelease", light.HeatRelease);
-    }
-    smokevis::AddField(fields, "FlameLumens", light.LumensAsked);
-    smokevis::AddField(fields, "FlameLumensPlaced", light.LumensPlaced);
-    if (light.LumensPlaced < (1.0 - TolerableLoss) * light.LumensAsked && pieces.IsFirstPiece())
-    {
-      vtkWarningMacro(<< "At " << request.Time << " s the flames give " << light.LumensAsked
-                      << " lm, but only " << light.LumensPlaced
-                      << " lm are shown: in some meshes no burning cell has smoke that could emit "
-                      << "it. Put a Luminaire of the missing light there.");
-    }
-  }
-  smokevis::FDSBlocks blocks;
-  for (int mesh = 0; mesh < static_cast<int>(index.Meshes.size()); ++mesh)
-  {
-    const bool here = mesh >= pieces.First() && mesh < pieces.End();
-    vtkRectilinearGrid* const grid = here ? meshes[mesh - pieces.First()].Grid.Get() : nullptr;
-    if (grid)
-    {
-      grid->GetFieldData()->ShallowCopy(fields);
-    }
-    blocks.Add(index.Meshes[mesh].Name, mesh, grid);
-  }
-  blocks.Publish(pieces, fields, request.Time, outInfo);
+  this->Warn(smokevis::ReadSmokeOutput(request, this, outInfo));
 }
 
 //------------------------------------------------------------------------------------------------

@@ -22,6 +22,11 @@
  * `FlameLumensPlaced` [lm], each over all meshes: the light that the model asks for, and what of it
  * the smoke of burning cells sends out.
  *
+ * The collections of all outputs also have the field data `WorkReportWhat`, `WorkReportCount` and
+ * `WorkReportWhy`: two rows a process, "seconds of process 0", the time that reading took it [s],
+ * and "bytes of process 0", how much it read of the run's files for this time step. Files that are
+ * opened for the first time for it, as those of Slices and Boundary are, count with their headers.
+ *
  * K comes, on each mesh and for each smoke species, from the best of what the run wrote in 3-D:
  *  -# cell-centred slices of EXTINCTION COEFFICIENT, OPTICAL DENSITY, DENSITY of the species, MASS
  *     FRACTION with the gas DENSITY, the latter two where the mass extinction coefficient is known;
@@ -69,6 +74,11 @@
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 #include <vector> // for std::vector
+
+namespace smokevis
+{
+class FDSFileBlocks;
+}
 
 class SMOKEREADERS_EXPORT vtkFDSSmokeReader : public vtkPartitionedDataSetCollectionAlgorithm
 {
@@ -241,9 +251,7 @@ private:
   void ReadGeometry(vtkInformation* outInfo);
   void ReadDevices(vtkInformation* outInfo);
   /// Reads an output with a block a file, of which missing ones make empty blocks.
-  template <class Source, class Parts, class EntryOf>
-  void ReadBlocks(
-    vtkInformation* outInfo, const char* what, Source& source, Parts& parts, EntryOf&& entryOf);
+  void ReadBlocks(vtkInformation* outInfo, const char* what, smokevis::FDSFileBlocks& files);
 
   char* FileName = nullptr;
   double TransparencyThreshold = 0.5;

@@ -219,8 +219,8 @@ double GlareSources::VeilingLuminance(const Sign& sign, double age) const
       continue;
     }
     const double angle = std::atan2(glm::length(glm::cross(source.Direction, sight)), cosine);
-    // Not nearer than half its radius: a source that the eye looks into stays finite, and one beside
-    // the line of sight is hardly moved.
+    // Not nearer than half its radius: a source that the eye looks into stays finite, and one
+    // beside the line of sight is hardly moved.
     const double off = std::hypot(angle, 0.5 * source.Radius);
     veil += source.Illuminance * cosine * VeilPerIlluminance(off, age);
   }

@@ -1,21 +1,21 @@
 #include "LightField.h"
 
 #include "DirectField.h"
+#include "DirectSolve.h"
 #include "Errors.h"
 #include "LineSweep.h"
 #include "PlateGather.h"
 #include "PowerBalance.h"
 #include "Sampler.h"
 #include "Settling.h"
+#include "Team.h"
 #include "VeilProbes.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <string>
 #include <tuple>
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -38,8 +38,6 @@ constexpr double DriftShare = 1.0;
 /// spread does not tell it; what is left to drift is a small part of what has been, and over 200
 /// seeds error bars hold with this.
 constexpr double DriftErrors = 2.0;
-/// Cells along the edges of the blocks that share ways to the lights.
-constexpr int BlockEdge = 8;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -49,7 +47,8 @@ class Solver
 {
 public:
   Solver(const Scene& scene, const LightFieldOptions& options, Progress& progress)
-      : Scene_(scene), Options_(options), Progress_(progress), Direct_(scene),
+      : Scene_(scene), Options_(options), Team_(options.Colleagues ? *options.Colleagues : Alone_),
+        Progress_(progress),
         Arena_(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic)
   {
   }
@@ -57,14 +56,14 @@ public:
   LightField Run();
 
 private:
-  void SolveCells();
-  /// Lights in the order of what they would send to a block through clear air.
-  std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
-  void SolvePatches();
   void SolveMultiple(int band);
   int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
     std::vector<BatchState>& batches, std::uint64_t key);
-  void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key);
+  /// One sweep of this process's batches.
+  /// @param meets whether all processes have the sums of all batches afterwards
+  void Sweep(
+    const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool meets);
+  void ShareSums(std::vector<BatchState>& batches);
   bool BandsEqual(int a, int b) const;
   const DirectField& Inside();
   void CheckStop() const
@@ -79,15 +78,11 @@ private:
     this->Field_.Report.push_back({what, count, why});
   }
 
-  /// Runs body(i) for all i below count, in steps between which progress is reported.
-  /// @param grain how many of them are worth a task
-  template <class Body>
-  void ForAll(std::size_t count, std::size_t grain, double from, double to, Body&& body);
-
   const Scene& Scene_;
   const LightFieldOptions& Options_;
+  Team Alone_;
+  Team& Team_;
   Progress& Progress_;
-  DirectLight Direct_;
   tbb::task_arena Arena_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
@@ -95,161 +90,42 @@ private:
   std::unique_ptr<DirectField> Inside_;
 };
 
-template <class Body>
-void Solver::ForAll(std::size_t count, std::size_t grain, double from, double to, Body&& body)
-{
-  constexpr std::size_t steps = 50;
-  const std::size_t chunk = std::max<std::size_t>(1, (count + steps - 1) / steps);
-  for (std::size_t begin = 0; begin < count; begin += chunk)
-  {
-    const std::size_t end = std::min(count, begin + chunk);
-    this->Arena_.execute(
-      [&]
-      {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
-          [&](const tbb::blocked_range<std::size_t>& range)
-          {
-            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop();
-                 ++i)
-            {
-              body(i);
-            }
-          });
-      });
-    this->Progress_.Report(from + (to - from) * static_cast<double>(end) / count);
-    this->CheckStop();
-  }
-}
-
-std::vector<std::size_t> Solver::StrongestFirst(const Medium::Block& block) const
-{
-  const EmitterSet& lights = this->Scene_.Lights();
-  const Vec3 place = this->Scene_.Smoke().CellCentre(this->Scene_.Smoke().Cell(block, {0, 0, 0}));
-  std::vector<std::pair<double, std::size_t>> strengths;
-  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
-  {
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-    const Vec3 way = root.Centre - place;
-    const double most = *std::max_element(root.Intensity.begin(), root.Intensity.end());
-    strengths.emplace_back(-most / (glm::dot(way, way) + root.Area), light);
-  }
-  std::sort(strengths.begin(), strengths.end());
-  std::vector<std::size_t> order;
-  for (const auto& [strength, light] : strengths)
-  {
-    order.push_back(light);
-  }
-  return order;
-}
-
-void Solver::SolveCells()
-{
-  const std::size_t lights = this->Scene_.Lights().Lights().size();
-  if (lights == 0)
-  {
-    return;
-  }
-  const std::vector<Medium::Block> blocks = this->Scene_.Smoke().Blocks(BlockEdge);
-  std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
-  std::atomic<std::size_t> told{0};
-  std::atomic<std::size_t> negligible{0};
-  this->ForAll(blocks.size(), 1, 0.0, 0.8 * DirectShare,
-    [&](std::size_t block)
-    {
-      for (const std::size_t light : this->StrongestFirst(blocks[block]))
-      {
-        const DirectLight::BlockWork work =
-          this->Direct_.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
-        told += work.Told;
-        negligible += work.Negligible;
-      }
-    });
-  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
-  {
-    for (int band = 0; band < this->Field_.Bands; ++band)
-    {
-      this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
-        static_cast<float>(sums[cell][band]);
-    }
-  }
-  this->Say("optical depths between cells and lights not walked", static_cast<double>(told),
-    "neighbouring cells' ways tell them");
-  this->Say("direct light of cells not computed", static_cast<double>(negligible),
-    "bounds of the light after its way through the smoke lie below 1e-7 of other lights'");
-}
-
-void Solver::SolvePatches()
-{
-  // Triangles of each patch, surfaces first.
-  struct Triangle
-  {
-    std::array<Vec3, 3> Corners;
-    double Area;
-  };
-  std::vector<std::vector<Triangle>> patches(this->Field_.Patches);
-  std::size_t first = 0;
-  for (const SurfaceMesh* mesh : {&this->Scene_.Surfaces(), &this->Scene_.EmitterMesh()})
-  {
-    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
-    {
-      Triangle triangle;
-      for (int corner = 0; corner < 3; ++corner)
-      {
-        triangle.Corners[corner] = mesh->Points[mesh->Triangles[i][corner]];
-      }
-      triangle.Area = 0.5 * glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
-                              triangle.Corners[2] - triangle.Corners[0]));
-      if (triangle.Area > 0.0)
-      {
-        patches[first + mesh->TriangleCell[i]].push_back(triangle);
-      }
-    }
-    first += mesh->CellReflectance.size();
-  }
-  const std::size_t lights = this->Scene_.Lights().Lights().size();
-  this->ForAll(lights > 0 ? this->Field_.Patches : 0, 16, 0.8 * DirectShare, DirectShare,
-    [&](std::size_t patch)
-    {
-      std::array<Spectrum, 2> sum{};
-      for (const Triangle& triangle : patches[patch])
-      {
-        const Vec3 normal = glm::normalize(glm::cross(
-          triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]));
-        const double share = triangle.Area / this->Scene_.PatchArea(patch);
-        for (std::size_t light = 0; light < lights; ++light)
-        {
-          const auto value = this->Direct_.TriangleIlluminance(light, triangle.Corners, normal);
-          for (int side = 0; side < 2; ++side)
-          {
-            for (int band = 0; band < this->Field_.Bands; ++band)
-            {
-              sum[side][band] += share * value[side][band];
-            }
-          }
-        }
-      }
-      for (int side = 0; side < 2; ++side)
-      {
-        for (int band = 0; band < this->Field_.Bands; ++band)
-        {
-          this->Field_.DirectIlluminance[this->Field_.PatchIndex(band, patch, side)] =
-            static_cast<float>(sum[side][band]);
-        }
-      }
-    });
-}
-
-void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key)
+void Solver::Sweep(
+  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool meets)
 {
   // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
   this->Arena_.execute(
     [&]
     {
-      tbb::parallel_for(std::size_t{0}, batches.size(),
-        [&](std::size_t batch)
-        { sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_); });
+      tbb::parallel_for(std::size_t{0}, this->Team_.OwnCount(batches.size()),
+        [&](std::size_t i)
+        {
+          const std::size_t batch = this->Team_.OwnItem(i);
+          sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_);
+        });
     });
   this->CheckStop();
+  if (meets)
+  {
+    this->ShareSums(batches);
+  }
+}
+
+void Solver::ShareSums(std::vector<BatchState>& batches)
+{
+  // 64 bytes for each cell and each side of a patch, which is little against a sweep's work. The
+  // latest estimates stay with their owners: nobody else goes on from them.
+  std::vector<Team::Part> parts;
+  for (std::size_t i = 0; i < batches.size(); ++i)
+  {
+    BatchState& batch = batches[i];
+    const int owner = this->Team_.OwnerOf(i);
+    parts.push_back(Team::PartOf(owner, batch.FluenceSum.data(), batch.FluenceSum.size()));
+    parts.push_back(Team::PartOf(owner, batch.IlluminanceSum.data(), batch.IlluminanceSum.size()));
+    parts.push_back(Team::PartOf(owner, &batch.EscapedSum, 1));
+    parts.push_back(Team::PartOf(owner, &batch.Counted, 1));
+  }
+  this->Team_.Share(parts);
 }
 
 int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
@@ -271,7 +147,7 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
           batch.Restart();
         }
       }
-      this->Sweep(sweep, batches, key + done);
+      this->Sweep(sweep, batches, key + done, first == 0 || done + 1 == first + window);
       if (first == 0)
       {
         balance.ScaleLatest(batches);
@@ -365,7 +241,7 @@ void Solver::SolveMultiple(int band)
     const int until = std::min(MostSweeps, done + std::max(1, wanted - counted));
     for (; done < until; ++done)
     {
-      this->Sweep(sweep, batches, key + done);
+      this->Sweep(sweep, batches, key + done, done + 1 == until);
       this->Progress_.Report(
         DirectShare + SettleShare +
         (0.95 - DirectShare - SettleShare) * (1.0 - std::exp(-0.02 * (done - settling))));
@@ -399,14 +275,20 @@ void Solver::SolveMultiple(int band)
     {
       std::tie(plates, rays) =
         PlateGather(this->Scene_, this->Options_, this->Inside(), this->Field_, band)
-          .Run(this->Progress_);
+          .Run(this->Team_, this->Progress_);
     });
-  this->CheckStop();
   this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
     "each cell is crossed about 1.5 times");
+  for (int rank = 0; rank < this->Team_.Size() && this->Team_.Size() > 1; ++rank)
+  {
+    const std::size_t own = this->Team_.OwnCount(batches.size(), rank);
+    this->Say(name + "lines of process " + std::to_string(rank),
+      static_cast<double>(sweep.Lines() * own * done),
+      "it sweeps " + std::to_string(own) + " of " + std::to_string(Batches) + " batches");
+  }
   if (plates > 0)
   {
     this->Say(name + "rays gathered by signs", static_cast<double>(rays),
@@ -462,8 +344,10 @@ LightField Solver::Run()
   {
     throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
   }
-  this->SolveCells();
-  this->SolvePatches();
+  DirectSolve direct(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
+    DirectShare, this->Field_);
+  direct.Cells();
+  direct.Patches();
   for (int band = 0; band < this->Field_.Bands; ++band)
   {
     int same = 0;

@@ -10,6 +10,8 @@
 namespace smokevis
 {
 
+class Team;
+
 /// One thing that the solver did or left out, for the WorkReport.
 struct WorkItem
 {
@@ -27,6 +29,9 @@ struct LightFieldOptions
   int Threads = 0;
   /// Leaves out what the scene does not need; off: does everything, to measure what that saves.
   bool Skips = true;
+  /// The processes that solve it together, all with the same scene and options; null: this one
+  /// alone. The result does not depend on how many they are.
+  Team* Colleagues = nullptr;
 };
 
 /// Plain result of the solver. Patches are surface cells, then emitter cells; sides are front,

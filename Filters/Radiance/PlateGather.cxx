@@ -1,7 +1,9 @@
 #include "PlateGather.h"
 
 #include "DirectField.h"
+#include "Errors.h"
 #include "Sampler.h"
+#include "Team.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +35,7 @@ PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
   this->LargestPlate_ = LargestShare * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-std::pair<std::size_t, std::size_t> PlateGather::Run(const Progress& progress)
+std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress& progress)
 {
   const std::vector<Sign>& signs = this->Scene_.Lights().Signs();
   std::vector<std::size_t> wanted;
@@ -46,8 +48,17 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(const Progress& progress)
   }
   // Signs see each other as the lines left them, whichever is gathered first.
   std::vector<Result> results(wanted.size());
-  tbb::parallel_for(std::size_t{0}, wanted.size(),
-    [&](std::size_t i) { results[i] = this->Gather(wanted[i], progress); });
+  tbb::parallel_for(std::size_t{0}, team.OwnCount(wanted.size()),
+    [&](std::size_t i)
+    {
+      const std::size_t own = team.OwnItem(i);
+      results[own] = this->Gather(wanted[own], progress);
+    });
+  if (progress.ShouldStop())
+  {
+    throw Error("light field", "the work was stopped");
+  }
+  team.Complete<Result>(results.size(), [&](std::size_t i, auto&& take) { take(results[i]); });
   std::size_t rays = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {

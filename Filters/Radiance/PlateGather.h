@@ -8,6 +8,7 @@ namespace smokevis
 {
 
 class DirectField;
+class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
 /// and the cells of their pattern more rarely still, so that noise would pass for a pattern.
@@ -21,9 +22,9 @@ public:
   PlateGather(const Scene& scene, const LightFieldOptions& options, const DirectField& direct,
     LightField& field, int band);
 
-  /// All plates, in parallel, unless it is stopped. Returns how many were gathered, and how many
-  /// rays that took.
-  std::pair<std::size_t, std::size_t> Run(const Progress& progress);
+  /// All plates, in parallel. Returns how many were gathered, and how many rays that took. Throws
+  /// Error when it is stopped.
+  std::pair<std::size_t, std::size_t> Run(Team& team, const Progress& progress);
 
 private:
   bool Wanted(const Sign& sign) const;

@@ -3,6 +3,7 @@
 
 #include "FortranRecords.h"
 #include "SmvFile.h"
+#include "TimedFile.h"
 
 #include <array>
 #include <cstddef>
@@ -30,7 +31,7 @@ struct BoundaryPatch
 
 /// An open boundary file. Opening reads the patches and the time of every frame; a frame is read by
 /// seeking to it.
-class BoundaryFile
+class BoundaryFile : public TimedFile
 {
 public:
   /// Throws Error when @p path is missing, no boundary file of @p mesh, or holds no whole frame.
@@ -38,18 +39,15 @@ public:
   BoundaryFile(
     const std::string& path, const SmvMesh& mesh, const std::string& what = "boundary file");
 
-  const std::string& Path() const { return records_.Path(); }
+  const std::string& Path() const override { return records_.Path(); }
   const std::vector<BoundaryPatch>& Patches() const { return patches_; }
-
-  /// Times of the whole frames [s]; at least one.
-  const std::vector<double>& FrameTimes() const { return times_; }
-
-  /// What is wrong behind the last whole frame; empty when nothing is.
-  const std::string& Damage() const { return damage_; }
+  const std::vector<double>& FrameTimes() const override { return times_; }
+  const std::string& Damage() const override { return damage_; }
+  std::uint64_t BytesRead() const override { return records_.BytesRead(); }
 
   /// Reads frame @p frame: the values of all patches, one patch after the other, on each along the
   /// first axis fastest, a value a node. Of cell-centred data the last along each axis is surplus.
-  void ReadFrame(std::size_t frame, std::vector<float>& values);
+  void ReadFrame(std::size_t frame, std::vector<float>& values) override;
 
 private:
   void ReadPatches(std::uint64_t& offset, const SmvMesh& mesh);

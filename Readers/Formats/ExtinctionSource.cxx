@@ -278,6 +278,21 @@ double ExtinctionSource::NearestTime(double time) const
 }
 
 //------------------------------------------------------------------------------------------------
+std::uint64_t ExtinctionSource::BytesRead() const
+{
+  std::uint64_t bytes = 0;
+  for (const std::vector<Term>& terms : terms_)
+  {
+    for (const Term& term : terms)
+    {
+      bytes += term.Field.File().BytesRead();
+      bytes += term.Density ? term.Density->File().BytesRead() : 0;
+    }
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------------------------
 double ExtinctionSource::Read(int mesh, double time, TimeInterpolation interpolation,
   const std::vector<unsigned char>& solid, std::span<float> values)
 {

@@ -8,6 +8,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,6 +49,9 @@ public:
   /// Threads may read different meshes at once.
   double Read(int mesh, double time, TimeInterpolation interpolation,
     const std::vector<unsigned char>& solid, std::span<float> values);
+
+  /// Bytes that were read so far, those of opening the files included; not while a thread reads.
+  std::uint64_t BytesRead() const;
 
 private:
   /// A chosen field, and what a mass fraction is to be multiplied by.

@@ -90,6 +90,20 @@ std::string FlameSource::MissingFrame(int mesh, double time, TimeInterpolation i
 }
 
 //------------------------------------------------------------------------------------------------
+std::uint64_t FlameSource::BytesRead() const
+{
+  std::uint64_t bytes = 0;
+  for (const std::vector<VolumeField>& fields : fields_)
+  {
+    for (const VolumeField& field : fields)
+    {
+      bytes += field.File().BytesRead();
+    }
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------------------------
 double FlameSource::Read(int mesh, double time, TimeInterpolation interpolation,
   const std::vector<unsigned char>& solid, std::span<float> values)
 {

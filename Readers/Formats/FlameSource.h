@@ -7,6 +7,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +49,9 @@ public:
   /// once.
   double Read(int mesh, double time, TimeInterpolation interpolation,
     const std::vector<unsigned char>& solid, std::span<float> values);
+
+  /// Bytes that were read so far, those of opening the files included; not while a thread reads.
+  std::uint64_t BytesRead() const;
 
 private:
   const SmvFile& index_;

@@ -67,6 +67,8 @@ public:
   const std::string& Path() const { return path_; }
   const std::string& What() const { return what_; }
   std::uint64_t Size() const { return size_; }
+  /// Bytes that were read so far.
+  std::uint64_t BytesRead() const { return bytesRead_; }
 
   /// "path, byte N", the place of a fault for messages.
   std::string At(std::uint64_t offset) const { return path_ + ", byte " + std::to_string(offset); }
@@ -158,12 +160,14 @@ private:
         "reading " + std::to_string(bytes) + " bytes of the " + what_ + " failed",
         "Check the disk, or whether the file is being rewritten");
     }
+    bytesRead_ += bytes;
   }
 
   std::string path_;
   std::string what_;
   std::ifstream stream_;
   std::uint64_t size_ = 0;
+  std::uint64_t bytesRead_ = 0;
   bool swapped_ = false;
 };
 

@@ -1,39 +1,24 @@
-// What all files of values over time have in common.
+// What all files of values on a grid over time have in common.
 #pragma once
+
+#include "TimedFile.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace smokevis
 {
 
-/// One quantity on an index range of one mesh, frame after frame. Opening one reads the times of
-/// its frames; a frame is read only when asked for.
-class FrameFile
+/// One quantity on an index range of one mesh, frame after frame; ReadFrame() gives the values x
+/// fastest.
+class FrameFile : public TimedFile
 {
 public:
-  FrameFile() = default;
-  FrameFile(const FrameFile&) = delete;
-  FrameFile& operator=(const FrameFile&) = delete;
-  virtual ~FrameFile() = default;
-
-  virtual const std::string& Path() const = 0;
-
   /// Number of values along x, y, z.
   virtual const std::array<int, 3>& Dimensions() const = 0;
-
-  /// Times of the whole frames [s], as the file has them; at least one.
-  virtual const std::vector<double>& FrameTimes() const = 0;
-
-  /// What is wrong behind the last whole frame; empty when nothing is.
-  virtual const std::string& Damage() const = 0;
-
-  /// Reads frame @p frame, x fastest, into @p values, which is resized to Dimensions().
-  virtual void ReadFrame(std::size_t frame, std::vector<float>& values) = 0;
 
   /// Number of values along x, y, z as they are stored: Dimensions() and, at the low ends, what is
   /// to be left out.

@@ -56,6 +56,7 @@ void Plot3DSeries::ReadFrame(std::size_t frame, std::vector<float>& values)
   values.resize(count);
   records.ReadInside(
     valuesAt + 4 + static_cast<std::uint64_t>(component_) * bytes, std::span<float>(values));
+  bytesRead_ += records.BytesRead();
 }
 
 } // namespace smokevis

@@ -23,6 +23,7 @@ public:
   const std::array<int, 3>& Dimensions() const override { return nodes_; }
   const std::vector<double>& FrameTimes() const override { return times_; }
   const std::string& Damage() const override { return damage_; }
+  std::uint64_t BytesRead() const override { return bytesRead_; }
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
 
 private:
@@ -32,6 +33,7 @@ private:
   std::vector<std::string> paths_;
   std::vector<double> times_;
   std::string damage_;
+  std::uint64_t bytesRead_ = 0;
 };
 
 } // namespace smokevis

@@ -33,6 +33,7 @@ public:
   const std::vector<double>& FrameTimes() const override { return times_; }
 
   const std::string& Damage() const override { return damage_; }
+  std::uint64_t BytesRead() const override { return records_.BytesRead(); }
 
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
   const std::array<int, 3>& StoredDimensions() const override { return stored_; }

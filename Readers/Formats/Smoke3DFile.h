@@ -43,6 +43,7 @@ public:
   const std::array<int, 3>& Dimensions() const override { return nodes_; }
   const std::vector<double>& FrameTimes() const override { return times_; }
   const std::string& Damage() const override { return damage_; }
+  std::uint64_t BytesRead() const override { return records_.BytesRead(); }
   void ReadFrame(std::size_t frame, std::vector<float>& values) override;
 
   /// Whether what would be read for @p path is density rather than the coarser opacity; false too

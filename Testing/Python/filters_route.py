@@ -137,6 +137,9 @@ assert summary(walking, "LeastVisibility")[0] == 0.0
 # --- errors -------------------------------------------------------------------------------------------
 for properties, words in (
         ({"WalkingSpeed": 0.0}, "WalkingSpeed: it is not positive"),
+        ({"Acuity": 10801.0}, "Acuity: it is too large"),
+        ({"DarkLuminance": -1.0}, "DarkLuminance: it is negative"),
+        ({"AdaptationLuminance": 1e13}, "AdaptationLuminance: it is too large"),
         ({"Route": table(a=[1.0, 2.0])}, "no columns x and y"),
         ({"Route": table(x=[1.0], y=[2.0])}, "no line of at least two points"),
         ({"Route": line([(0, 0, 0), (1, 0, 0)], [5.0, 4.0])}, "its time is not after that of the corner before"),

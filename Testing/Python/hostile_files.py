@@ -21,7 +21,7 @@ from scenes import fetch, image, producer
 simple = scenes.load_plugin()
 DATA = sys.argv[2]
 # The pipeline's own message, that an algorithm failed, follows the algorithm's.
-ERRORS = re.compile(r"ERROR: In \S*vtk(?!Executive)")
+ERRORS = re.compile(r"ERROR: In .*\nvtk(?!\w*Pipeline )")
 LONGEST = 20.0  # s, for a file that a reader should turn down at once
 
 

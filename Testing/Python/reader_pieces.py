@@ -47,6 +47,28 @@ def digest(data):
     return lines
 
 
+def report(data, pieces, what):
+    """The bytes that each process read, from the work report, which also has their time."""
+    fields = data.GetFieldData()
+    told = fields.GetAbstractArray("WorkReportWhat")
+    count = vtk_to_numpy(fields.GetArray("WorkReportCount"))
+    rows = ["%s of process %d" % (unit, r) for r in range(pieces) for unit in ("seconds", "bytes")]
+    equal([told.GetValue(i) for i in range(told.GetNumberOfValues())], rows, what + ": rows of the report")
+    equal(fields.GetAbstractArray("WorkReportWhy").GetNumberOfValues(), len(rows), what + ": reasons")
+    true(((count[0::2] > 0.0) & (count[0::2] < 60.0)).all(), "%s: seconds %s" % (what, count[0::2]))
+    return count[1::2]
+
+
+def stored_bytes(data, pieces):
+    """What a frame of a cell-centred slice takes of the meshes of each process: its layers of cells have ghosts."""
+    grids = [data.GetPartition(i, 0) for i in range(data.GetNumberOfPartitionedDataSets())]
+    cells = np.array([grid.GetNumberOfCells() for grid in grids], float)
+    layers = [4 * x * y * (z - 1) for x, y, z in (grid.GetDimensions() for grid in grids)]
+    # A mesh is read where its middle lies.
+    owners = np.ceil((np.cumsum(cells) - 0.5 * cells) / cells.sum() * pieces).astype(int) - 1
+    return np.bincount(owners, layers, pieces)
+
+
 lines = []
 for case, time in (("Room/fds/room.smv", 20.0), ("Hall/fds/hall.smv", 600.0)):
     path = os.path.join(sys.argv[2], case)
@@ -56,6 +78,13 @@ for case, time in (("Room/fds/room.smv", 20.0), ("Hall/fds/hall.smv", 600.0)):
     for port in (0, 3, 4):
         whole.UpdateTimeStep(time, 0, 1, 0) if port == 0 else whole.Update(port)
         lines += digest(whole.GetOutputDataObject(port))
+        read = report(whole.GetOutputDataObject(port), ranks, "%s, output %d" % (case, port))
+        # All processes together read what one does, whoever reads it; slices' headers are read once a mesh.
+        lines.append("bytes of output %d: %d" % (port, read.sum()))
+        if port == 0:
+            # The extinction, and the heat release rate that the flames come from, packed or as a slice.
+            frame = stored_bytes(whole.GetOutputDataObject(port), ranks)
+            true((read >= frame).all() and (read <= 2.01 * frame + 100).all(), "bytes %s of %s" % (read, frame))
     # A piece, as a view asks for it: no mesh is read twice.
     part = reader(path).GetClientSideObject()
     part.UpdateTimeStep(time, rank, ranks, 0)

@@ -150,7 +150,7 @@ class Messages:
 
     def count(self, kind, class_name):
         """Messages of a kind, "ERROR" or "Warning", that objects of a class gave."""
-        return len(re.findall(kind + r": In \S*" + class_name + r"\.cxx", self.text))
+        return len(re.findall(kind + r": In .*\n" + class_name + r" \(", self.text))
 
 
 def check_close(what, value, expected, relative=0.0, absolute=0.0):

@@ -1,5 +1,7 @@
 // Progress never falls, and work that is given up ends soon, without an error, and leaves the
 // output that was there before.
+#include "UniformSmoke.h"
+
 #include <vtkCADReader.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
@@ -7,7 +9,6 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObjectTreeRange.h>
 #include <vtkDataSet.h>
-#include <vtkDoubleArray.h>
 #include <vtkExitSignSource.h>
 #include <vtkFDSSmokeReader.h>
 #include <vtkFloorMapOfVisibility.h>
@@ -187,11 +188,7 @@ protected:
   {
     this->Smoke->SetDimensions(41, 21, 11);
     this->Smoke->SetSpacing(0.25, 0.25, 0.25);
-    vtkNew<vtkDoubleArray> extinction;
-    extinction->SetName("Extinction");
-    extinction->SetNumberOfTuples(this->Smoke->GetNumberOfCells());
-    extinction->Fill(0.5);
-    this->Smoke->GetCellData()->AddArray(extinction);
+    FillExtinction(this->Smoke, 0.5);
     this->Sign->SetCenter(10.0, 2.5, 1.5);
     this->Sign->SetNormal(-1.0, 0.0, 0.0);
     this->Field->SetAlbedo(0.9);

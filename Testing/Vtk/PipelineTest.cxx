@@ -1,6 +1,6 @@
 // The filters without ParaView: no process module, no MPI controller.
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
+#include "UniformSmoke.h"
+
 #include <vtkExitSignSource.h>
 #include <vtkFloorMapOfVisibility.h>
 #include <vtkImageData.h>
@@ -25,7 +25,7 @@ protected:
   {
     this->Smoke->SetDimensions(5, 3, 3);
     this->Smoke->SetSpacing(1.0, 1.0, 1.0);
-    this->SetExtinction(0.0);
+    FillExtinction(this->Smoke, 0.0);
     this->Sign->SetCenter(4.0, 1.0, 1.0);
     this->Sign->SetNormal(-1.0, 0.0, 0.0);
     this->Field->SetAlbedo(0.0);
@@ -36,16 +36,6 @@ protected:
     this->View->SetTargetSign(0);
     this->View->SetDarkLuminance(0.0);
     this->View->SetImageSize(8, 4);
-  }
-
-  void SetExtinction(double value)
-  {
-    vtkNew<vtkDoubleArray> extinction;
-    extinction->SetName("Extinction");
-    extinction->SetNumberOfTuples(16);
-    extinction->Fill(value);
-    this->Smoke->GetCellData()->AddArray(extinction);
-    this->Smoke->Modified();
   }
 
   double Result(const char* name)
@@ -76,7 +66,7 @@ TEST_F(PipelineTest, ShowsASignInClearAirAsItIs)
 TEST_F(PipelineTest, FollowsChangesUpstream)
 {
   EXPECT_NEAR(this->Result("LitLuminance"), 300.0, 1e-3);
-  this->SetExtinction(1.0);
+  FillExtinction(this->Smoke, 1.0);
   // Bouguer's law over 3 m and, in the mean over the plate, another 0.6 to 0.7 %.
   EXPECT_NEAR(this->Result("LitLuminance"), 300.0 * std::exp(-3.0), 0.01 * 300.0 * std::exp(-3.0));
   this->Sign->SetLuminance(600.0);

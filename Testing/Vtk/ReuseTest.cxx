@@ -1,8 +1,9 @@
 // What time steps that change nothing, or the smoke alone, do not do again: the results are those
 // of fresh filters, bit by bit.
+#include "UniformSmoke.h"
+
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkExitSignSource.h>
 #include <vtkFieldData.h>
 #include <vtkFloorMapOfVisibility.h>
@@ -87,7 +88,7 @@ protected:
   void SetUp() override
   {
     this->Smoke->SetDimensions(5, 3, 3);
-    this->SetExtinction(0.4);
+    FillExtinction(this->Smoke, 0.4);
     this->Wall->SetOrigin(0, 0, 0);
     this->Wall->SetPoint1(4, 0, 0);
     this->Wall->SetPoint2(0, 2, 0);
@@ -102,15 +103,6 @@ protected:
   }
   void TearDown() override { std::remove(this->Path.c_str()); }
 
-  void SetExtinction(double value)
-  {
-    vtkNew<vtkDoubleArray> extinction;
-    extinction->SetName("Extinction");
-    extinction->SetNumberOfTuples(16);
-    extinction->Fill(value);
-    this->Smoke->GetCellData()->AddArray(extinction);
-    this->Smoke->Modified();
-  }
   std::vector<double> FreshValues()
   {
     return Chain(this->Smoke, this->Wall, this->Sign, this->Lamp).Values();
@@ -133,7 +125,7 @@ TEST_F(ReuseTest, AStepThatChangesNothingKeepsAll)
   EXPECT_EQ(chain.FieldEntry("light fields solved"), -1.0);
   EXPECT_EQ(chain.MapEntry("views set up"), 1.0);
   // As a reader does, whose next step has other objects with the same content.
-  this->SetExtinction(0.4);
+  FillExtinction(this->Smoke, 0.4);
   this->Sign->Modified();
   this->Lamp->Modified();
   this->Wall->Modified();
@@ -146,14 +138,14 @@ TEST_F(ReuseTest, SmokeThatChangesKeepsTheSearchStructures)
 {
   Chain chain(this->Smoke, this->Wall, this->Sign, this->Lamp);
   const std::vector<double> first = chain.Values();
-  this->SetExtinction(0.7);
+  FillExtinction(this->Smoke, 0.7);
   const std::vector<double> second = chain.Values();
   EXPECT_NE(second, first);
   EXPECT_EQ(chain.FieldEntry("search structures built"), 0.0);
   EXPECT_EQ(chain.MapEntry("views set up"), 1.0);
   EXPECT_EQ(chain.MapEntry("search structures built"), 0.0);
   EXPECT_EQ(second, this->FreshValues());
-  this->SetExtinction(0.4);
+  FillExtinction(this->Smoke, 0.4);
   EXPECT_EQ(chain.Values(), first);
 }
 

@@ -1,0 +1,228 @@
+#include "DirectSolve.h"
+
+#include "DirectLight.h"
+#include "Errors.h"
+#include "Scene.h"
+#include "Team.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Cells along the edges of the blocks that share ways to the lights.
+constexpr int BlockEdge = 8;
+/// Share of the work that cells are expected to take.
+constexpr double CellShare = 0.8;
+
+struct Triangle
+{
+  std::array<Vec3, 3> Corners;
+  double Area;
+};
+
+/// Triangles of each patch, surfaces first.
+std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
+{
+  std::vector<std::vector<Triangle>> patches(scene.Patches());
+  std::size_t first = 0;
+  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
+  {
+    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+    {
+      Triangle triangle;
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        triangle.Corners[corner] = mesh->Points[mesh->Triangles[i][corner]];
+      }
+      triangle.Area = 0.5 * glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
+                              triangle.Corners[2] - triangle.Corners[0]));
+      if (triangle.Area > 0.0)
+      {
+        patches[first + mesh->TriangleCell[i]].push_back(triangle);
+      }
+    }
+    first += mesh->CellReflectance.size();
+  }
+  return patches;
+}
+
+} // namespace
+
+DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team,
+  Progress& progress, tbb::task_arena& arena, double share, LightField& field)
+    : Scene_(scene), Options_(options), Team_(team), Progress_(progress), Arena_(arena),
+      Share_(share), Field_(field)
+{
+}
+
+template <class Body>
+void DirectSolve::ForOwn(std::size_t count, std::size_t grain, double from, double to, Body&& body)
+{
+  constexpr std::size_t steps = 50;
+  const std::size_t own = this->Team_.OwnCount(count);
+  const std::size_t chunk = std::max<std::size_t>(1, (own + steps - 1) / steps);
+  for (std::size_t begin = 0; begin < own; begin += chunk)
+  {
+    const std::size_t end = std::min(own, begin + chunk);
+    this->Arena_.execute(
+      [&]
+      {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
+          [&](const tbb::blocked_range<std::size_t>& range)
+          {
+            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop();
+                 ++i)
+            {
+              body(this->Team_.OwnItem(i));
+            }
+          });
+      });
+    this->Progress_.Report(this->Share_ * (from + (to - from) * static_cast<double>(end) / own));
+    if (this->Progress_.ShouldStop())
+    {
+      throw Error("light field", "the work was stopped");
+    }
+  }
+}
+
+std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Vec3 place = this->Scene_.Smoke().CellCentre(this->Scene_.Smoke().Cell(block, {0, 0, 0}));
+  std::vector<std::pair<double, std::size_t>> strengths;
+  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
+  {
+    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const Vec3 way = root.Centre - place;
+    const double most = *std::max_element(root.Intensity.begin(), root.Intensity.end());
+    strengths.emplace_back(-most / (glm::dot(way, way) + root.Area), light);
+  }
+  std::sort(strengths.begin(), strengths.end());
+  std::vector<std::size_t> order;
+  for (const auto& [strength, light] : strengths)
+  {
+    order.push_back(light);
+  }
+  return order;
+}
+
+void DirectSolve::Cells()
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  if (this->Scene_.Lights().Lights().empty())
+  {
+    return;
+  }
+  const DirectLight direct(this->Scene_);
+  const std::vector<Medium::Block> blocks = smoke.Blocks(BlockEdge);
+  std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
+  std::atomic<std::size_t> told{0};
+  std::atomic<std::size_t> negligible{0};
+  this->ForOwn(blocks.size(), 1, 0.0, CellShare,
+    [&](std::size_t block)
+    {
+      for (const std::size_t light : this->StrongestFirst(blocks[block]))
+      {
+        const DirectLight::BlockWork work =
+          direct.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
+        told += work.Told;
+        negligible += work.Negligible;
+      }
+    });
+  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+  {
+    for (int band = 0; band < this->Field_.Bands; ++band)
+    {
+      this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
+        static_cast<float>(sums[cell][band]);
+    }
+  }
+  this->Team_.Complete<float>(blocks.size(),
+    [&](std::size_t index, auto&& take)
+    {
+      const Medium::Block& block = blocks[index];
+      std::array<int, 3> place;
+      for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+      {
+        for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+        {
+          for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+          {
+            for (int band = 0; band < this->Field_.Bands; ++band)
+            {
+              take(
+                this->Field_.DirectFluence[this->Field_.CellIndex(band, smoke.Cell(block, place))]);
+            }
+          }
+        }
+      }
+    });
+  this->Field_.Report.push_back({"optical depths between cells and lights not walked",
+    static_cast<double>(this->Team_.Sum(told.load())), "neighbouring cells' ways tell them"});
+  this->Field_.Report.push_back(
+    {"direct light of cells not computed", static_cast<double>(this->Team_.Sum(negligible.load())),
+      "bounds of the light after its way through the smoke lie below 1e-7 of other lights'"});
+}
+
+void DirectSolve::Patches()
+{
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
+  if (lights == 0)
+  {
+    return;
+  }
+  const DirectLight direct(this->Scene_);
+  const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(this->Scene_);
+  const auto illuminance = [this](int band, std::size_t patch, int side) -> float&
+  { return this->Field_.DirectIlluminance[this->Field_.PatchIndex(band, patch, side)]; };
+  this->ForOwn(patches.size(), 16, CellShare, 1.0,
+    [&](std::size_t patch)
+    {
+      std::array<Spectrum, 2> sum{};
+      for (const Triangle& triangle : patches[patch])
+      {
+        const Vec3 normal = glm::normalize(glm::cross(
+          triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]));
+        const double share = triangle.Area / this->Scene_.PatchArea(patch);
+        for (std::size_t light = 0; light < lights; ++light)
+        {
+          const auto value = direct.TriangleIlluminance(light, triangle.Corners, normal);
+          for (int side = 0; side < 2; ++side)
+          {
+            for (int band = 0; band < this->Field_.Bands; ++band)
+            {
+              sum[side][band] += share * value[side][band];
+            }
+          }
+        }
+      }
+      for (int side = 0; side < 2; ++side)
+      {
+        for (int band = 0; band < this->Field_.Bands; ++band)
+        {
+          illuminance(band, patch, side) = static_cast<float>(sum[side][band]);
+        }
+      }
+    });
+  this->Team_.Complete<float>(patches.size(),
+    [&](std::size_t patch, auto&& take)
+    {
+      for (int side = 0; side < 2; ++side)
+      {
+        for (int band = 0; band < this->Field_.Bands; ++band)
+        {
+          take(illuminance(band, patch, side));
+        }
+      }
+    });
+}
+
+} // namespace smokevis

@@ -1,0 +1,42 @@
+// Direct light of all cells and patches: the first part of a light field's solution.
+#pragma once
+
+#include "LightField.h"
+
+#include <tbb/task_arena.h>
+
+namespace smokevis
+{
+
+/// Works out the light that comes straight from the emitters, in parallel: blocks of cells and
+/// patches do not depend on each other.
+class DirectSolve
+{
+public:
+  /// @param share of the progress bar, from 0, that this takes
+  /// @param field receives the direct fluence and illuminance, and what was left out
+  DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team, Progress& progress,
+    tbb::task_arena& arena, double share, LightField& field);
+
+  /// Throws Error when it is stopped.
+  void Cells();
+  void Patches();
+
+private:
+  /// Lights in the order of what they would send to a block through clear air.
+  std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
+  /// Runs body(i) for this process's items of so many, in steps between which progress is reported.
+  /// @param grain how many of them are worth a task
+  template <class Body>
+  void ForOwn(std::size_t count, std::size_t grain, double from, double to, Body&& body);
+
+  const Scene& Scene_;
+  const LightFieldOptions& Options_;
+  Team& Team_;
+  Progress& Progress_;
+  tbb::task_arena& Arena_;
+  double Share_;
+  LightField& Field_;
+};
+
+} // namespace smokevis
