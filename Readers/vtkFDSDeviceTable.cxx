@@ -1,6 +1,7 @@
 #include "vtkFDSDeviceTable.h"
 
 #include "Errors.h"
+#include "PrintableText.h"
 #include "SmvFile.h"
 #include "TextFields.h"
 
@@ -51,6 +52,18 @@ std::string ReadText(const std::string& path)
   return text;
 }
 
+// Text of headings as VTK's reader of tables takes it, to which a backslash is the begin of an
+// escape.
+std::string Headings(const std::string& text)
+{
+  std::string escaped;
+  for (const char c : Printable(text))
+  {
+    escaped.append(c == '\\' ? 2 : 1, c);
+  }
+  return escaped;
+}
+
 // One line or a whole table of comma-separated, perhaps quoted fields.
 vtkSmartPointer<vtkTable> ParseCsv(const std::string& text, bool header)
 {
@@ -80,8 +93,10 @@ void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
     throw Error(path, "the device table lacks its two heading lines (units and names)",
       "Wait until the run has written them, or run FDS again");
   }
-  const auto unitRow = ParseCsv(text.substr(0, unitsEnd + 1), false);
-  const auto values = ParseCsv(text.substr(unitsEnd + 1), true);
+  const std::size_t namesEnd = text.find('\n', unitsEnd + 1);
+  const auto unitRow = ParseCsv(Headings(text.substr(0, unitsEnd + 1)), false);
+  const auto values = ParseCsv(
+    Headings(text.substr(unitsEnd + 1, namesEnd - unitsEnd)) + text.substr(namesEnd + 1), true);
   if (table->GetNumberOfColumns() > 0 && table->GetNumberOfRows() != values->GetNumberOfRows())
   {
     throw Error(path, "its number of rows differs from that of the run's other device tables",

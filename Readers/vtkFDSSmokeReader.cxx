@@ -9,6 +9,7 @@
 
 #include "Errors.h"
 #include "KeptOutput.h"
+#include "PrintableText.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -248,7 +249,7 @@ void vtkFDSSmokeReader::Warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< smokevis::Printable(warning));
   }
 }
 

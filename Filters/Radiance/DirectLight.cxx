@@ -20,13 +20,19 @@ constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
 /// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
 constexpr double DeepestDepth = 100.0;
-/// A leaf is split in four above this r/d, where three Gauss points an edge do not follow its
-/// transmittance any more.
+/// A leaf is split above this r/d, where three Gauss points an edge do not follow its transmittance
+/// any more: in four, or in two where one edge is so many times the other. How often: that in four
+/// counts three times.
 constexpr double LeafRatio = 0.7;
-constexpr int LeafSplits = 4;
+constexpr int LeafSplits = 12;
+constexpr int SplitInFour = 3;
+constexpr double SlenderRatio = 1.517;
 constexpr double CutRatio = 0.02;
 /// Optical depth across a leaf below which its transmittance is known however close it is.
 constexpr double EvenDepth = 0.04;
+/// Optical depth across the radius of a group above which its light does not go smoothly enough for
+/// the few places of a stencil.
+constexpr double StencilDepth = 1.0;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
 /// Shadow rays along one edge of a light that is partly hidden.
@@ -36,26 +42,11 @@ constexpr double TriangleRatio = 0.5;
 constexpr double TrianglePointRatio = 0.1;
 constexpr int TriangleSplits = 4;
 
-Vec3 Bilinear(const std::array<Vec3, 4>& corners, double u, double v)
-{
-  return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
-         v * ((1.0 - u) * corners[3] + u * corners[2]);
-}
-
-/// Area per unit of u and v there.
-double BilinearArea(const std::array<Vec3, 4>& corners, double u, double v)
-{
-  const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
-  const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
-  return glm::length(glm::cross(du, dv));
-}
-
 LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
 {
   LightGroup part = leaf;
-  part.Corners = {Bilinear(leaf.Corners, u0, v0), Bilinear(leaf.Corners, u1, v0),
-    Bilinear(leaf.Corners, u1, v1), Bilinear(leaf.Corners, u0, v1)};
-  part.Centre = Bilinear(leaf.Corners, 0.5 * (u0 + u1), 0.5 * (v0 + v1));
+  part.Corners = {leaf.At(u0, v0), leaf.At(u1, v0), leaf.At(u1, v1), leaf.At(u0, v1)};
+  part.Centre = leaf.At(0.5 * (u0 + u1), 0.5 * (v0 + v1));
   part.Radius = 0.0;
   for (const Vec3& corner : part.Corners)
   {
@@ -76,7 +67,7 @@ double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) con
 {
   const Geometry& shapes = this->Scene_.Shapes();
   const auto visible = [&](double u, double v)
-  { return shapes.Visible(point, Bilinear(group.Corners, u, v)) ? 1 : 0; };
+  { return shapes.Visible(point, group.At(u, v)) ? 1 : 0; };
   // The centre and the corners: a shadow's edge mostly parts them.
   constexpr double inset = 0.04;
   int seen = visible(0.5, 0.5);
@@ -222,22 +213,26 @@ void DirectLight::AddLeaf(
   const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
   const bool parted = !few && path.Visible < 1.0;
-  const int order = few ? 2 : parted ? ShadowEdge : 3;
+  // Two points an edge follow what changes little.
+  const bool thin = leaf.Law == EmissionLaw() && this->Scene_.Smoke().MaximumExtinction() *
+                                                     this->Scene_.LargestScale() * leaf.Radius <
+                                                   EvenDepth;
+  const int order = parted ? ShadowEdge : few || thin ? 2 : 3;
   double weights = 0.0;
   Spectrum weighted{};
   for (int i = 0; i < order; ++i)
   {
     for (int j = 0; j < order; ++j)
     {
-      const double u = few ? Nodes2[i] : parted ? (i + 0.5) / ShadowEdge : Nodes3[i];
-      const double v = few ? Nodes2[j] : parted ? (j + 0.5) / ShadowEdge : Nodes3[j];
-      const Vec3 target = Bilinear(corners, u, v);
+      const double u = order == 2 ? Nodes2[i] : parted ? (i + 0.5) / ShadowEdge : Nodes3[i];
+      const double v = order == 2 ? Nodes2[j] : parted ? (j + 0.5) / ShadowEdge : Nodes3[j];
+      const Vec3 target = leaf.At(u, v);
       const Vec3 to = target - point;
       const double square = glm::dot(to, to);
       const double distance = std::sqrt(square);
       const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
-      double weight = BilinearArea(corners, u, v) * cosine / square *
-                      (few || parted ? 1.0 : Weights3[i] * Weights3[j]);
+      double weight =
+        leaf.AreaAt(u, v) * cosine / square * (order == 3 ? Weights3[i] * Weights3[j] : 1.0);
       if (receiver.Normal)
       {
         weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
@@ -264,6 +259,56 @@ void DirectLight::AddLeaf(
     sum[band] += (parted ? 1.0 : path.Visible) * leaf.Intensity[band] / leaf.Area * closed *
                  weighted[band] / weights;
   }
+}
+
+bool DirectLight::AddStencil(
+  const LightGroup& group, const Receiver& receiver, const Path* path, Spectrum& sum) const
+{
+  const Vec3 centre = group.Centre - receiver.Point;
+  // Neither the plane of the plate nor the receiver's horizon may cut the group.
+  if (!group.Stencil || glm::dot(centre, group.Normal) >= 0.0 ||
+      (receiver.Normal && glm::dot(centre, *receiver.Normal) < group.Radius) ||
+      this->Scene_.Smoke().MaximumExtinction() * this->Scene_.LargestScale() * group.Radius >
+        StencilDepth)
+  {
+    return false;
+  }
+  const auto places = group.Stencil->PlacesFor(receiver.Point, group.Law.Sharpness());
+  if (places.empty())
+  {
+    return false;
+  }
+  if (path == nullptr && !receiver.Clear)
+  {
+    const auto seen = std::count_if(places.begin(), places.end(),
+      [&](const PlateStencil::Place& place)
+      { return this->Scene_.Shapes().Visible(receiver.Point, place.Point); });
+    if (seen < static_cast<std::ptrdiff_t>(places.size()))
+    {
+      return seen == 0;
+    }
+  }
+  for (const PlateStencil::Place& place : places)
+  {
+    const Vec3 to = place.Point - receiver.Point;
+    const double square = glm::dot(to, to);
+    const double distance = std::sqrt(square);
+    const double cosine = -glm::dot(to, group.Normal) / distance;
+    double factor = (path ? path->Visible : 1.0) * cosine / square;
+    factor *= group.Law.Relative(-to / distance, cosine);
+    if (receiver.Normal)
+    {
+      factor *= glm::dot(to, *receiver.Normal) / distance;
+    }
+    const double depth =
+      path ? path->MeanExtinction * distance : this->Depth(receiver, place.Point);
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] +=
+        factor * place.Intensity[band] * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+    }
+  }
+  return true;
 }
 
 void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, const Path* path,
@@ -307,16 +352,23 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   }
   else if (leaf)
   {
-    for (const double u : {0.0, 0.5})
+    // A slender leaf is cut across alone.
+    const double along = glm::length(group.Corners[1] - group.Corners[0]);
+    const double up = glm::length(group.Corners[3] - group.Corners[0]);
+    const int columns = up > SlenderRatio * along ? 1 : 2;
+    const int rows = along > SlenderRatio * up ? 1 : 2;
+    const int left = std::max(0, splits - (columns * rows == 4 ? SplitInFour : 1));
+    for (int column = 0; column < columns; ++column)
     {
-      for (const double v : {0.0, 0.5})
+      for (int row = 0; row < rows; ++row)
       {
-        const LightGroup part = Part(group, u, u + 0.5, v, v + 0.5);
-        this->Gather(part, receiver, path, splits - 1, sum);
+        const LightGroup part = Part(group, static_cast<double>(column) / columns,
+          (column + 1.0) / columns, static_cast<double>(row) / rows, (row + 1.0) / rows);
+        this->Gather(part, receiver, path, left, sum);
       }
     }
   }
-  else
+  else if (!this->AddStencil(group, receiver, path, sum))
   {
     const auto& groups = this->Scene_.Lights().Groups();
     this->Gather(groups[group.FirstChild], receiver, path, splits, sum);
@@ -329,7 +381,13 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
   const EmitterSet& lights = this->Scene_.Lights();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   Receiver receiver{point, std::nullopt, clear};
-  if (root.Radius > PathRatio * glm::length(root.Centre - point))
+  const Medium& smoke = this->Scene_.Smoke();
+  if (smoke.EvenAt(point) && std::all_of(root.Corners.begin(), root.Corners.end(),
+                               [&smoke](const Vec3& corner) { return smoke.EvenAt(corner); }))
+  {
+    receiver.Extinction = smoke.MaximumExtinction();
+  }
+  else if (root.Radius > PathRatio * glm::length(root.Centre - point))
   {
     receiver.Close = this->WaysTo(root, point);
   }

@@ -97,6 +97,9 @@ private:
     Spectrum& sum) const;
   void AddPoint(
     const LightGroup& group, const Receiver& receiver, const Path& path, Spectrum& sum) const;
+  /// Adds a group by its stencil, unless that does not serve this receiver: then it returns false.
+  bool AddStencil(
+    const LightGroup& group, const Receiver& receiver, const Path* path, Spectrum& sum) const;
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
@@ -108,12 +111,12 @@ private:
     std::optional<double> known) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
-  /// Mean extinction between the cells of a block and a light: linear between the corners of the
-  /// block; none where that does not hold.
   /// Whether a light adds next to nothing to what all cells of a block already hold.
   /// @param ways mean extinctions along the ways to the block's corners
   bool Negligible(const LightGroup& root, const Medium::Block& block,
     const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const;
+  /// Mean extinction between the cells of a block and a light: linear between the corners of the
+  /// block; none where that does not hold.
   std::optional<std::array<double, 8>> BlockWays(
     const LightGroup& root, const Medium::Block& block) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,

@@ -20,6 +20,8 @@ namespace
 /// A light of more leaves is replaced by a lattice with so many rectangles along its longer side.
 constexpr std::size_t MostLeaves = 20;
 constexpr double LatticeAcross = 4.0;
+/// A group of no more depth than this share of its radius is plane.
+constexpr double FlatDepth = 1e-6;
 
 /// Newell's normal of a polygon; its length is twice the area.
 Vec3 AreaVector(const std::vector<Vec3>& vertices)
@@ -111,6 +113,20 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionL
 }
 
 } // namespace
+
+Vec3 LightGroup::At(double u, double v) const
+{
+  return (1.0 - v) * ((1.0 - u) * this->Corners[0] + u * this->Corners[1]) +
+         v * ((1.0 - u) * this->Corners[3] + u * this->Corners[2]);
+}
+
+double LightGroup::AreaAt(double u, double v) const
+{
+  const std::array<Vec3, 4>& corners = this->Corners;
+  const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
+  const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
+  return glm::length(glm::cross(du, dv));
+}
 
 double LightGroup::Distance(const Vec3& point) const
 {
@@ -441,6 +457,11 @@ void EmitterSet::FillGroup(
   }
   all.Corners = {all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
     all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v};
+  if (!all.Law.Measured() && all.Depth <= FlatDepth * all.Radius)
+  {
+    all.Stencil = std::make_shared<PlateStencil>(
+      all.Corners, std::span(leaves).subspan(begin, end - begin), this->Bands_);
+  }
   const Vec3 extent = high - low;
   const int axis =
     extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);

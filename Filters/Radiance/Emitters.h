@@ -2,6 +2,7 @@
 #pragma once
 
 #include "EmissionLaw.h"
+#include "PlateStencil.h"
 #include "Types.h"
 
 #include <memory>
@@ -68,9 +69,14 @@ struct LightGroup
   /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the
   /// group.
   std::array<Vec3, 4> Corners{};
+  /// What stands for the leaves of a plane group with a smooth law; a leaf has none.
+  std::shared_ptr<const PlateStencil> Stencil;
 
   /// Distance of a point from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
+  /// A place between the corners, and the area for each unit of u and v there [m2].
+  Vec3 At(double u, double v) const;
+  double AreaAt(double u, double v) const;
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells

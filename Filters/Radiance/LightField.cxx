@@ -34,10 +34,6 @@ constexpr int MostSweeps = 768;
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
-/// Standard errors of the veil that the same drift may be. All batches drift alike, so that their
-/// spread does not tell it; what is left to drift is a small part of what has been, and over 200
-/// seeds error bars hold with this.
-constexpr double DriftErrors = 2.0;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -57,8 +53,7 @@ public:
 
 private:
   void SolveMultiple(int band);
-  int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
-    std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
   /// One sweep of this process's batches.
   /// @param meets whether all processes have the sums of all batches afterwards
   void Sweep(
@@ -128,13 +123,13 @@ void Solver::ShareSums(std::vector<BatchState>& batches)
   this->Team_.Share(parts);
 }
 
-int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
-  std::vector<BatchState>& batches, std::uint64_t key)
+int Solver::Settle(
+  const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
 {
   const PowerBalance balance(this->Scene_, sweep, band);
   BlockMeans earlier;
   int done = 0;
-  for (int window = FirstWindow;;)
+  for (int window = FirstWindow;; window *= 2)
   {
     const int first = done;
     for (; done < first + window; ++done)
@@ -158,8 +153,8 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
     const double limit = DriftShare * this->Options_.Tolerance;
     const BlockMeans::Drift drift =
       first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
-    const bool tolerable = first > 0 && drift.UpperBound < limit;
-    if (tolerable && drift.Estimate < DriftErrors * probes.RelativeError(batches))
+    // A drift that noise does not hide would make the error bars, which tell noise, too small.
+    if (first > 0 && drift.UpperBound < limit && drift.LowerBound == 0.0)
     {
       return done;
     }
@@ -180,7 +175,6 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
       balance.ScaleLatest(batches);
     }
     earlier = std::move(now);
-    window = tolerable ? window : 2 * window;
   }
 }
 
@@ -227,9 +221,9 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
-  int done = this->Settle(sweep, band, probes, batches, key);
+  int done = this->Settle(sweep, band, batches, key);
   const int settling = done - batches.front().Counted;
+  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
   double error = probes.RelativeError(batches);
   while (error > ErrorShare * this->Options_.Tolerance && done < MostSweeps)
   {

@@ -118,6 +118,10 @@ public:
   void Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
 
+  /// Whether a point lies in smoke that is the same all over the one grid there is. Between two
+  /// such points the extinction is MaximumExtinction().
+  bool EvenAt(const Vec3& point) const { return this->Even_ && this->Grids_[0].Contains(point); }
+
   /// Optical depth of the ray between two distances, for extinction as given (633 nm).
   double OpticalDepth(const Vec3& origin, const Vec3& direction, double begin, double end) const;
 

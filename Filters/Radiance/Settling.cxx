@@ -138,7 +138,7 @@ BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resol
   // Blocks drift together: how far noise moves the estimate is told by a jackknife over batches.
   const double deviation = (Batches - 1.0) * std::sqrt(VarianceOf(without, MeanOf(without)));
   const auto root = [weights](double value) { return std::sqrt(std::max(0.0, value) / weights); };
-  return {root(square - 2.0 * deviation), root(square), root(std::max(0.0, square) + deviation)};
+  return {root(square - deviation), root(square), root(std::max(0.0, square) + deviation)};
 }
 
 } // namespace smokevis

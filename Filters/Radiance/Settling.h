@@ -23,7 +23,7 @@ public:
   /// where a block lies in the dark).
   struct Drift
   {
-    /// Noise taken out, two standard errors below that, and one above.
+    /// Noise taken out, and a standard error below and above that.
     double LowerBound = 0.0;
     double Estimate = 0.0;
     double UpperBound = 0.0;

@@ -11,7 +11,7 @@ trap 'rm -rf "$home"' EXIT
 # A home of its own: settings of the user would change the pictures.
 export HOME=$home XDG_RUNTIME_DIR=$home QT_LOGGING_RULES="*=false"
 export SMOKEVISIBILITY_DATA=$2 PYTHONPATH=$3 SMOKEVISIBILITY_WALK=$folder
-PV_PLUGIN_PATH=$(dirname "$plugin") xvfb-run -a -s "-screen 0 1400x860x24" \
+PV_PLUGIN_PATH=$(dirname "$plugin") xvfb-run -a -s "-noreset -screen 0 1400x860x24" \
   paraview --dr --script="$here/walk.py" 2>&1 | tee "$folder/log.txt"
 if [ ! -e "$folder/passed" ]; then
   echo "The walk did not reach its end."

@@ -35,6 +35,17 @@ def build():
     return light, image, floor, practice
 
 
+def exr_pixels(path):
+    """What follows the header of an OpenEXR file, which holds run times, and the table of places after it."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 8
+    while data[at] != 0:  # entries: name, type, size, value
+        at = data.index(b"\0", data.index(b"\0", at) + 1) + 1
+        at += 4 + int.from_bytes(data[at:at + 4], "little")
+    return data[int.from_bytes(data[at + 1:at + 9], "little"):]
+
+
 def digest(data, lines, where):
     if data.IsA("vtkCompositeDataSet"):
         for i in range(data.GetNumberOfPartitionedDataSets()):
@@ -111,9 +122,18 @@ def check_ranks():
         assert algorithm.GetOutputDataObject(0).GetNumberOfPoints() == (35 if name == "over" else 5)
         digest(algorithm.GetOutputDataObject(0), lines, "time " + name)
     simple.SaveData(OUTPUT + ".nc", proxy=filters[2], TimeRange=[18.5, 23.0])
+    filters[1].UpdatePipeline(TIME)
+    simple.SaveData(OUTPUT + ".exr", proxy=filters[1])
+    with scenes.Messages() as messages:
+        try:
+            simple.SaveData(os.path.join(OUTPUT + " is no folder", "image.exr"), proxy=filters[1])
+        except RuntimeError:
+            pass
+    assert ("cannot be written" if rank == 0 else "another process") in messages.text, (rank, messages.text)
     if rank == 0:
         with open(OUTPUT + ".nc", "rb") as file:
             lines.append("time file %s" % hashlib.sha256(file.read()).hexdigest())
+        lines.append("time image %s" % hashlib.sha256(exr_pixels(OUTPUT + ".exr")).hexdigest())
 
     # What one process lacks is an error for all, and nobody waits for it.
     with tempfile.TemporaryDirectory() as temporary:

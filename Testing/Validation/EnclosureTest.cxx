@@ -53,13 +53,13 @@ std::vector<std::int64_t> CellsAt(double x, double y)
 }
 
 // 1 % is the project's promise for luminance; cells of 0.04 mean free paths and their flat sources
-// take less than 0.2 % of it. Single patches are met by few lines: solved with less noise than by
-// default, so that it is their value that is tested.
+// take less than 0.2 % of it. The tolerance, of the veil along lines of sight, brings the standard
+// errors of single cells and patches to about that, too.
 void CheckProfiles(double opticalSide, double albedo)
 {
   report::Head("Square enclosure, mean radiance, side " + std::to_string(opticalSide) +
                ", albedo " + std::to_string(albedo));
-  const Solved solved(SquareBox(opticalSide, albedo), 0.003);
+  const Solved solved(SquareBox(opticalSide, albedo), 0.004);
   const report::ReferenceTable table("square2d_meanradiance_own.csv");
   for (std::size_t row = 0; row < table.Rows(); ++row)
   {
