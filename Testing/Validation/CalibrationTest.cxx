@@ -146,7 +146,7 @@ void CheckSeeds(
 
 TEST(Calibration, SixtySeeds)
 {
-  CheckSeeds(SmallRoom(0.9, 0.4), 60, 0.05, 0.001);
+  CheckSeeds(SmallRoom(0.9, 0.4), 60, 0.05, 0.002);
 }
 
 TEST(Calibration, TwoHundredSeedsLong)
