@@ -391,9 +391,5 @@ void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
     return;
   }
   vtkTable* const devices = vtkTable::SafeDownCast(outInfo->Get(vtkDataObject::DATA_OBJECT()));
-  for (const std::string& missing : smokevis::ReadDeviceTable(index, devices))
-  {
-    vtkWarningMacro(<< missing << ": the device table is missing, so Devices is empty. Copy the "
-                    << "file that the index names beside the index.");
-  }
+  this->Warn(smokevis::ReadDeviceTable(index, devices));
 }

@@ -218,9 +218,10 @@ void SmvParser::ParseVents(bool circular)
 //------------------------------------------------------------------------------------------------
 void SmvParser::ParseSlice(std::string_view line, bool cellCentred)
 {
-  // mesh # TYPE [% ID] & i1 i2 j1 j2 k1 k2 ! index cell_centred IOR
+  // mesh # TYPE [% ID] & i1 i2 j1 j2 k1 k2 ! index cell_centred IOR; the ID is the analyst's and
+  // may have marks of its own.
   const auto mesh = SplitIntegers(line, 1, 6);
-  const auto range = SplitIntegers(Before(After(line, '&'), '!'), 6, 6);
+  const auto range = SplitIntegers(Before(AroundLast(line, '&').second, '!'), 6, 6);
   if (mesh.empty() || range.size() < 6)
   {
     this->Fail("a slice needs its mesh number and six indices");
@@ -292,9 +293,10 @@ void SmvParser::ParseBoundary(std::string_view line, bool cellCentred)
 void SmvParser::ParseDevice()
 {
   SmvDevice device;
-  const std::string_view line = this->Next();
-  device.Name = Printable(Trim(Before(line, '%')));
-  device.Quantity = Printable(Trim(After(line, '%')));
+  // The name may have marks of its own, as in "door 50% open % TEMPERATURE".
+  const auto [name, quantity] = AroundLast(this->Next(), '%');
+  device.Name = Printable(Trim(name));
+  device.Quantity = Printable(Trim(quantity));
   // Fortran writes asterisks for numbers that are wider than their field, as map coordinates are.
   const std::string_view place = this->Next();
   const auto numbers = SplitNumbers(place);

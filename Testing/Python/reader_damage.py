@@ -162,6 +162,21 @@ with tempfile.TemporaryDirectory() as temporary:
     true("room.smv, line %d: a change names obstruction 999 of mesh 'coarse'" % line in said.text, "its line")
     equal(Smoke(changed, 16.0).meshes[1].solid.sum(), 0, "the screen still goes")
 
+# --- a table of devices that is being written --------------------------------------------------------------
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, ("room.smv",) + SMOKE + HEAT)
+    with open(os.path.join(folder, "room_devc.csv"), "rb") as file:
+        table = file.read()
+    rows = table.split(b"\n")
+    for size, warnings in ((len(b"\n".join(rows[:9])) + 1, 0), (len(b"\n".join(rows[:9])) + 20, 1)):
+        with open(os.path.join(temporary, "room_devc.csv"), "wb") as file:
+            file.write(table[:size])
+        going = reader(os.path.join(temporary, "room.smv"))
+        said = messages_of(lambda: simple.OutputPort(going, 2).UpdatePipeline(), temporary)
+        equal(said.count("Warning"), warnings, "warnings of a table of %d bytes" % size)
+        equal("room_devc.csv: line 10 of the device table is cut short" in said.text, warnings == 1, "its line")
+        equal(len(Devices(going).column("Time")), 7, "rows before it")
+
 # --- labels that would do something to a terminal, or are no text --------------------------------------------
 def told(data, name):
     """The values of a text array of field or cell data."""

@@ -212,6 +212,19 @@ TEST(SmvFile, AnEndlessFileIsRefusedUnread)
   }
 }
 
+TEST(SmvFile, NamesMayHoldTheMarksBetweenFields)
+{
+  test::Folder folder("marks");
+  const std::string text = OneMesh().Bytes();
+  const SmvFile index(folder.Write("a.smv",
+    text + "SLCC     1 # STRUCTURED % door & hall ! 3 &     0    4    0    3    0    2 !      1" +
+      "      1      0\n a.sf\n SOOT DENSITY\n rho\n kg/m3\n" +
+      "DEVICE\n door 50% open % TEMPERATURE\n 0.5 1.5 2.0 0 0 0 0 0\n"));
+  EXPECT_EQ(index.Slices.back().Range, (IndexRange{0, 4, 0, 3, 0, 2}));
+  EXPECT_EQ(index.Devices.back().Name, "door 50% open");
+  EXPECT_EQ(index.Devices.back().Quantity, "TEMPERATURE");
+}
+
 TEST(SmvFile, LabelsAreMadePrintable)
 {
   test::Folder folder("labels");
