@@ -177,9 +177,14 @@ void vtkVisibilityImage::CheckProperties() const
   smokevis::Check(
     static_cast<std::int64_t>(this->ImageSize[0]) * this->ImageSize[1] <= MaximumPixels,
     "ImageSize", "the image has more than 100 million pixels", "Give a smaller image");
-  smokevis::Check(std::all_of(this->CameraPosition, this->CameraPosition + 3,
-                    [](double value) { return std::isfinite(value); }),
-    "CameraPosition", "it is not finite", "Give a point in metres");
+  const std::pair<const char*, const double*> vectors[] = {{"CameraPosition", this->CameraPosition},
+    {"CameraFocalPoint", this->CameraFocalPoint}, {"CameraViewUp", this->CameraViewUp}};
+  for (const auto& [name, values] : vectors)
+  {
+    smokevis::Check(
+      std::all_of(values, values + 3, [](double value) { return std::isfinite(value); }), name,
+      "it is not finite", "Give three numbers, in metres");
+  }
   smokevis::CheckPositive(this->FocalLength, "FocalLength", "Give it in mm");
   smokevis::Check(
     smokevis::IsPositive(this->SensorSize[0]) && smokevis::IsPositive(this->SensorSize[1]),
