@@ -7,9 +7,9 @@
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
-#include "PipelineProgress.h"
 #include "PointArrays.h"
 #include "PropertyChecks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "WholeInput.h"
 
@@ -196,14 +196,15 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     {
       view = &this->Implementation->Input.Get(input);
       options = this->Prepare(*view);
-      const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
-      std::tie(options.First, options.End) = ranks.Share(places);
-      smokevis::RunWithProgress(this, 0.05, 0.98,
-        [&](smokevis::Progress& progress)
-        { map = smokevis::ComputeFloorMap(*view, options, progress); });
     });
-  const std::vector<double> seconds =
-    ranks.Each(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  std::tie(options.First, options.End) =
+    ranks.Share(static_cast<std::size_t>(options.PlacesX) * options.PlacesY);
+  smokevis::RankTeam team(this);
+  team.Run(0.05, 0.98,
+    [&](smokevis::Progress& progress)
+    { map = smokevis::ComputeFloorMap(*view, options, progress); });
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+  const std::vector<double> seconds = ranks.Each(all.count() - team.Waited());
   const std::size_t places = map.Status.size();
   ranks.Complete(map.Status, places);
   ranks.Complete(map.BestSign, places);

@@ -7,6 +7,7 @@
 #include "Ranks.h"
 #include "StepWalk.h"
 #include "VisibilityHistory.h"
+#include "WholeInput.h"
 #include "vtkFloorMapOfVisibility.h"
 
 #include <vtkDoubleArray.h>
@@ -130,13 +131,13 @@ int vtkVisibilityOverTime::RequestUpdateExtent(
   try
   {
     smokevis::AskForTime(inputVector[0], this->Steps(inputVector[0]).front());
-    return 1;
   }
-  catch (const std::exception& error)
+  catch (const smokevis::Error&)
   {
-    vtkErrorMacro(<< error.what());
-    return 0;
+    // RequestData runs into it again, and tells of it once.
+    smokevis::RequestWholeInputs(inputVector[0]);
   }
+  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -81,6 +81,10 @@ for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
             checked += 1
         assert set(grouped) <= known, (name, set(grouped) - known)
 
+        # ParaView asks for the inputs of a filter in a dialog where two of them are not optional.
+        inputs = proxy.findall("InputProperty")
+        assert len(inputs) < 2 or sum(entry.find("Hints/Optional") is None for entry in inputs) > 1, name
+
         # --- menus and files --------------------------------------------------------------------------
         menu = proxy.find("Hints/ShowInMenu")
         reader = proxy.find("Hints/ReaderFactory")
