@@ -8,7 +8,7 @@ if [ "$(id -u)" -eq 0 ]; then
   options+=(--allow-run-as-root)
 fi
 for processes in 1 2 3; do
-  timeout 90 "$mpiexec" "${options[@]}" -np "$processes" "$pvbatch" --symmetric \
+  timeout 180 "$mpiexec" "${options[@]}" -np "$processes" "$pvbatch" --symmetric \
     --force-offscreen-rendering "$(dirname "$0")/reader_pieces.py" "$plugin" "$data" \
     "$work/pieces$processes.txt"
   cmp "$work/pieces1.txt" "$work/pieces$processes.txt"
