@@ -159,7 +159,7 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
     const BlockMeans::Drift drift =
       first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
     const bool tolerable = first > 0 && drift.UpperBound < limit;
-    if (tolerable && drift.Estimate < DriftErrors * probes.RelativeError(batches))
+    if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
     {
       return done;
     }
