@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "PixelLight.h"
 #include "SmallPlates.h"
+#include "Team.h"
 #include "VeilBlock.h"
 
 #include <tbb/parallel_for.h>
@@ -294,7 +295,26 @@ private:
   int Bands_;
 };
 
-TracedImage TracePinhole(const View& view, const Camera& camera, double acuity, Progress& progress)
+/// The squares of pixels that an image is traced in.
+struct Squares
+{
+  explicit Squares(const Camera& camera)
+      : Columns((camera.Width + BlockSize - 1) / BlockSize),
+        Count(static_cast<std::size_t>(Columns) * ((camera.Height + BlockSize - 1) / BlockSize))
+  {
+  }
+
+  /// First pixel of a square.
+  int X(std::size_t square) const { return static_cast<int>(square % this->Columns) * BlockSize; }
+  int Y(std::size_t square) const { return static_cast<int>(square / this->Columns) * BlockSize; }
+
+  std::size_t Columns;
+  std::size_t Count;
+};
+
+/// The squares of this process.
+TracedImage TracePinhole(
+  const View& view, const Camera& camera, double acuity, const Team& team, Progress& progress)
 {
   const std::size_t pixels = static_cast<std::size_t>(camera.Width) * camera.Height;
   TracedImage image;
@@ -308,22 +328,22 @@ TracedImage TracePinhole(const View& view, const Camera& camera, double acuity, 
 
   const BlockTracer tracer(view, camera, acuity, image);
   const std::thread::id caller = std::this_thread::get_id();
-  const int columns = (camera.Width + BlockSize - 1) / BlockSize;
-  const int rows = (camera.Height + BlockSize - 1) / BlockSize;
-  const int blocks = columns * rows;
-  std::atomic<int> done{0};
-  tbb::parallel_for(0, blocks,
-    [&](int block)
+  const Squares squares(camera);
+  const std::size_t own = team.OwnCount(squares.Count);
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t{0}, own,
+    [&](std::size_t i)
     {
       if (progress.ShouldStop())
       {
         return;
       }
-      tracer.Trace(block % columns * BlockSize, block / columns * BlockSize);
-      const int count = done.fetch_add(1, std::memory_order_relaxed) + 1;
+      const std::size_t square = team.OwnItem(i);
+      tracer.Trace(squares.X(square), squares.Y(square));
+      const std::size_t count = done.fetch_add(1, std::memory_order_relaxed) + 1;
       if (std::this_thread::get_id() == caller)
       {
-        progress.Report(static_cast<double>(count) / blocks);
+        progress.Report(static_cast<double>(count) / static_cast<double>(own));
       }
     });
   if (progress.ShouldStop())
@@ -354,50 +374,91 @@ private:
   int Parts_;
 };
 
+std::array<std::vector<float>*, 6> Channels(TracedImage& image)
+{
+  return {&image.Luminance, &image.LuminanceError, &image.Direct, &image.Veil, &image.OpticalDepth,
+    &image.LuminanceRGB};
+}
+
 void AddTo(std::vector<float>& sum, const std::vector<float>& values)
 {
   std::transform(
     sum.begin(), sum.end(), values.begin(), sum.begin(), [](float a, float b) { return a + b; });
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress)
+/// The mean of pinhole cameras all over the lens; the squares of this process.
+TracedImage TraceLens(
+  const View& view, const Camera& camera, double acuity, const Team& team, Progress& progress)
 {
-  if (!(camera.Aperture > 0.0))
-  {
-    return TracePinhole(view, camera, acuity, progress);
-  }
   Camera centre = camera;
   centre.Aperture = 0.0;
   PartProgress first(progress, 0, LensSamples + 1);
-  TracedImage image = TracePinhole(view, centre, acuity, first);
-  const auto channels = [](TracedImage& of)
-  {
-    return std::array<std::vector<float>*, 6>{
-      &of.Luminance, &of.LuminanceError, &of.Direct, &of.Veil, &of.OpticalDepth, &of.LuminanceRGB};
-  };
-  for (std::vector<float>* const values : channels(image))
+  TracedImage image = TracePinhole(view, centre, acuity, team, first);
+  for (std::vector<float>* const values : Channels(image))
   {
     std::fill(values->begin(), values->end(), 0.0F);
   }
   for (int point = 0; point < LensSamples; ++point)
   {
     PartProgress part(progress, point + 1, LensSamples + 1);
-    TracedImage sample = TracePinhole(view, camera.ThroughLens(point, LensSamples), acuity, part);
-    for (std::size_t i = 0; i < channels(image).size(); ++i)
+    TracedImage sample =
+      TracePinhole(view, camera.ThroughLens(point, LensSamples), acuity, team, part);
+    for (std::size_t i = 0; i < Channels(image).size(); ++i)
     {
-      AddTo(*channels(image)[i], *channels(sample)[i]);
+      AddTo(*Channels(image)[i], *Channels(sample)[i]);
     }
   }
-  for (std::vector<float>* const values : channels(image))
+  for (std::vector<float>* const values : Channels(image))
   {
     for (float& value : *values)
     {
       value /= static_cast<float>(LensSamples);
     }
   }
+  return image;
+}
+
+/// Completes the pixels with those of the other processes.
+void Complete(TracedImage& image, const Camera& camera, Team& team)
+{
+  const Squares squares(camera);
+  const auto complete = [&](auto& values)
+  {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t components =
+      values.size() / (static_cast<std::size_t>(camera.Width) * camera.Height);
+    team.Complete<Value>(squares.Count,
+      [&](std::size_t square, auto&& take)
+      {
+        const int right = std::min(camera.Width, squares.X(square) + BlockSize);
+        const int top = std::min(camera.Height, squares.Y(square) + BlockSize);
+        for (int y = squares.Y(square); y < top; ++y)
+        {
+          const std::size_t row = static_cast<std::size_t>(y) * camera.Width;
+          for (std::size_t i = components * (row + squares.X(square));
+               i < components * (row + right); ++i)
+          {
+            take(values[i]);
+          }
+        }
+      });
+  };
+  for (std::vector<float>* const values : Channels(image))
+  {
+    complete(*values);
+  }
+  complete(image.SignIds);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TracedImage TraceImage(
+  const View& view, const Camera& camera, double acuity, Team& team, Progress& progress)
+{
+  TracedImage image = camera.Aperture > 0.0 ? TraceLens(view, camera, acuity, team, progress)
+                                            : TracePinhole(view, camera, acuity, team, progress);
+  Complete(image, camera, team);
   return image;
 }
 

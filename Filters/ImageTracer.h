@@ -10,6 +10,8 @@
 namespace smokevis
 {
 
+class Team;
+
 /// Values a pixel, bottom row first. Luminances are photometric [cd/m2].
 struct TracedImage
 {
@@ -35,6 +37,8 @@ struct TracedImage
 /// threads. A camera with an aperture is the mean of pinhole cameras all over its lens; its SignIds
 /// are those of the lens's centre. Throws Error when stopped.
 /// @param acuity smallest angle that is resolved [rad]
-TracedImage TraceImage(const View& view, const Camera& camera, double acuity, Progress& progress);
+/// @param team processes that share the pixels; all of them get the whole image
+TracedImage TraceImage(
+  const View& view, const Camera& camera, double acuity, Team& team, Progress& progress);
 
 } // namespace smokevis

@@ -101,15 +101,17 @@ void AddFields(vtkPartitionedDataSetCollection& output, vtkDataObject& smoke,
 }
 
 //------------------------------------------------------------------------------
-void ReportRanks(const Ranks& ranks, vtkPartitionedDataSetCollection& output, double seconds)
+void ReportRanks(
+  const Ranks& ranks, vtkPartitionedDataSetCollection& output, double seconds, double waited)
 {
   if (ranks.Count() > 1)
   {
     constexpr double kibibyte = 1024.0;
     const double bytes = kibibyte * static_cast<double>(output.GetActualMemorySize());
     ReportRanks(*output.GetFieldData(),
-      {ranks.Each(seconds), "each process solves the whole light field"},
-      {ranks.Each(bytes), "each process holds the whole light field"});
+      {{"seconds", ranks.Each(seconds), "its share of the light field, and what all do alike"},
+        {"seconds of waiting", ranks.Each(waited), "for what the other processes worked out"},
+        {"bytes", ranks.Each(bytes), "each process holds the whole light field"}});
   }
 }
 

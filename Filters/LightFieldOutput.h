@@ -32,9 +32,10 @@ void AddBlocks(vtkPartitionedDataSetCollection& output, const SceneBlocks& block
 void AddFields(vtkPartitionedDataSetCollection& output, vtkDataObject& smoke,
   const LightFieldRecord& record, const std::vector<WorkItem>& report);
 
-/// Adds to the work report what each process of a parallel run did: every one solves the whole.
-/// @param seconds that this process took
-void ReportRanks(const Ranks& ranks, vtkPartitionedDataSetCollection& output, double seconds);
+/// Adds to the work report what each process of a parallel run did.
+/// @param seconds,waited that this process worked, and that it spent on the others [s]
+void ReportRanks(
+  const Ranks& ranks, vtkPartitionedDataSetCollection& output, double seconds, double waited);
 
 /// Leaves every so many-th block, which a view of a parallel run is to draw.
 /// @param piece number of the piece that is asked for, and number of pieces

@@ -1,6 +1,7 @@
 // Refuses work for which there is not enough memory, before the machine swaps.
 #pragma once
 
+#include "ControlGroup.h"
 #include "Errors.h"
 
 #include <vtksys/SystemInformation.hxx>
@@ -13,14 +14,14 @@ namespace smokevis
 {
 
 /// Memory that this process may still take without driving others out of theirs [bytes]; less where
-/// a limit is set on the process (ulimit).
+/// a limit is set on the process (ulimit) or on its group (containers, batch systems).
 inline double FreeMemory()
 {
   constexpr double kibibyte = 1024.0;
   vtksys::SystemInformation system;
   const long long host = system.GetHostMemoryTotal() - system.GetHostMemoryUsed();
   const long long process = system.GetProcMemoryAvailable() - system.GetProcMemoryUsed();
-  return kibibyte * static_cast<double>(std::min(host, process));
+  return std::min(kibibyte * static_cast<double>(std::min(host, process)), FreeMemoryOfGroup());
 }
 
 /// Throws Error where work takes more memory than is free.

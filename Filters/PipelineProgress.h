@@ -15,6 +15,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace smokevis
 {
@@ -31,8 +32,56 @@ public:
 
   double Fraction() const { return this->Fraction_.load(); }
 
+  /// For the work: has an errand run on the caller's thread, and throws what it throws.
+  void OnCallersThread(const std::function<void()>& errand)
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex_);
+    this->Errand_ = &errand;
+    this->Changed_.notify_all();
+    this->Changed_.wait(lock, [this] { return !this->Errand_; });
+    if (this->Problem_)
+    {
+      std::rethrow_exception(std::exchange(this->Problem_, nullptr));
+    }
+  }
+  /// For the work: it has ended.
+  void SetDone()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex_);
+    this->IsDone_ = true;
+    this->Changed_.notify_all();
+  }
+  /// For the caller: waits a while, runs the errand that the work sends it on, if any, and returns
+  /// whether the work has ended.
+  bool Attend(std::chrono::milliseconds interval)
+  {
+    std::unique_lock<std::mutex> lock(this->Mutex_);
+    this->Changed_.wait_for(lock, interval, [this] { return this->IsDone_ || this->Errand_; });
+    if (this->Errand_)
+    {
+      // The work does nothing until this is over.
+      try
+      {
+        (*this->Errand_)();
+      }
+      catch (...)
+      {
+        this->Problem_ = std::current_exception();
+      }
+      this->Errand_ = nullptr;
+      this->Changed_.notify_all();
+    }
+    return this->IsDone_;
+  }
+
 private:
   std::atomic<double> Fraction_{0.0};
+  std::mutex Mutex_;
+  std::condition_variable Changed_;
+  /// Null: none, or done.
+  const std::function<void()>* Errand_ = nullptr;
+  std::exception_ptr Problem_;
+  bool IsDone_ = false;
 };
 
 /// Does work on a thread of its own, while the caller's thread, the only one that may talk to the
@@ -40,8 +89,9 @@ private:
 /// step of the work is, ShouldStop turns true at once. Returns when the work has ended, and throws
 /// what it threw.
 /// @param begin,end the algorithm's progress when the work begins and ends
-inline void RunWithProgress(
-  vtkAlgorithm* algorithm, double begin, double end, const std::function<void(Progress&)>& work)
+/// @param hears asked as often as for an abort, and may likewise have the work stopped
+inline void RunWithProgress(vtkAlgorithm* algorithm, double begin, double end,
+  const std::function<void(SharedProgress&)>& work, const std::function<bool()>& hears = {})
 {
   constexpr std::chrono::milliseconds interval(50);
   const auto checkAbort = [algorithm]
@@ -54,9 +104,6 @@ inline void RunWithProgress(
   checkAbort();
   SharedProgress progress;
   std::exception_ptr problem;
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool isDone = false;
   std::thread worker(
     [&]
     {
@@ -68,19 +115,12 @@ inline void RunWithProgress(
       {
         problem = std::current_exception();
       }
-      const std::lock_guard<std::mutex> lock(mutex);
-      isDone = true;
-      ended.notify_one();
+      progress.SetDone();
     });
-  const auto hasEnded = [&]
-  {
-    std::unique_lock<std::mutex> lock(mutex);
-    return ended.wait_for(lock, interval, [&] { return isDone; });
-  };
-  while (!hasEnded())
+  while (!progress.Attend(interval))
   {
     algorithm->UpdateProgress(begin + progress.Fraction() * (end - begin));
-    if (algorithm->CheckAbort())
+    if (algorithm->CheckAbort() || (hears && hears()))
     {
       progress.Stop();
     }

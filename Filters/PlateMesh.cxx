@@ -238,6 +238,8 @@ vtkSmartPointer<vtkPolyData> PlateMesh::Finish() const
   }
   result->SetPoints(points);
   result->SetPolys(polys);
+  // ParaView colours by it.
+  data->SetActiveScalars("Luminance");
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace smokevis
 /// A number of each process, by rank, and what is to be said about it.
 struct RankNumbers
 {
+  const char* What = "";
   std::vector<double> Of;
   const char* Why = "";
 };
@@ -31,22 +32,21 @@ template <class Array> Array& FieldArray(vtkFieldData& fields, const char* name)
   return *Array::SafeDownCast(fields.GetAbstractArray(name));
 }
 
-/// Adds two rows a process, "seconds of process 0" and "bytes of process 0", to the arrays
+/// Adds a row for each number and process, such as "seconds of process 0", to the arrays
 /// WorkReportWhat, WorkReportCount and WorkReportWhy.
-inline void ReportRanks(vtkFieldData& fields, const RankNumbers& seconds, const RankNumbers& bytes)
+inline void ReportRanks(vtkFieldData& fields, const std::vector<RankNumbers>& numbers)
 {
   auto& what = FieldArray<vtkStringArray>(fields, "WorkReportWhat");
   auto& count = FieldArray<vtkDoubleArray>(fields, "WorkReportCount");
   auto& why = FieldArray<vtkStringArray>(fields, "WorkReportWhy");
-  for (std::size_t rank = 0; rank < seconds.Of.size(); ++rank)
+  for (const RankNumbers& number : numbers)
   {
-    const std::string process = " of process " + std::to_string(rank);
-    what.InsertNextValue("seconds" + process);
-    count.InsertNextValue(seconds.Of[rank]);
-    why.InsertNextValue(seconds.Why);
-    what.InsertNextValue("bytes" + process);
-    count.InsertNextValue(bytes.Of[rank]);
-    why.InsertNextValue(bytes.Why);
+    for (std::size_t rank = 0; rank < number.Of.size(); ++rank)
+    {
+      what.InsertNextValue(std::string(number.What) + " of process " + std::to_string(rank));
+      count.InsertNextValue(number.Of[rank]);
+      why.InsertNextValue(number.Why);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "ImageFile.h"
+#include "Ranks.h"
 
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -123,7 +124,16 @@ void vtkEXRWriter::WriteData()
     {
       throw smokevis::Error("EXR writer", "there is no file name", "Give a FileName");
     }
-    BuildFile(vtkImageData::SafeDownCast(this->GetInput())).Write(this->FileName);
+    // All processes of a parallel run have made the image together; the first one writes it.
+    const smokevis::Ranks ranks;
+    ranks.Together(this,
+      [&]
+      {
+        if (ranks.Rank() == 0)
+        {
+          BuildFile(vtkImageData::SafeDownCast(this->GetInput())).Write(this->FileName);
+        }
+      });
   }
   catch (const std::exception& error)
   {

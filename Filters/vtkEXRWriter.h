@@ -8,7 +8,7 @@
  * `SignIds` SignId; other arrays keep their names, with a dot and the name or number of the
  * component where there are several. Numbers of the field data become header entries of type double
  * (a dot and an index where there are several), texts of type string. The entry `Units` names the
- * units.
+ * units. In a parallel run the first process writes the file, and all tell of an error.
  */
 #ifndef vtkEXRWriter_h
 #define vtkEXRWriter_h

@@ -7,9 +7,9 @@
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
-#include "PipelineProgress.h"
 #include "PointArrays.h"
 #include "PropertyChecks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "WholeInput.h"
 
@@ -110,6 +110,33 @@ void vtkFloorMapOfVisibility::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
+std::array<double, 6> vtkFloorMapOfVisibility::Area(const smokevis::Medium& smoke) const
+{
+  if (!this->UseBox && this->Bounds[0] > this->Bounds[1])
+  {
+    return {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y, smoke.Lower().z,
+      smoke.Upper().z};
+  }
+  std::array<double, 6> bounds;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double& lower = bounds[2 * axis];
+    double& upper = bounds[2 * axis + 1];
+    lower = this->UseBox ? this->BoxPosition[axis] : this->Bounds[2 * axis];
+    upper = this->UseBox ? lower + this->BoxSize[axis] : this->Bounds[2 * axis + 1];
+    const bool isGood = lower < upper && std::isfinite(lower) && std::isfinite(upper);
+    if (this->UseBox)
+    {
+      smokevis::Check(isGood, "BoxSize", "the box is empty",
+        "Give BoxPosition and positive lengths along x, y and z in metres, or turn UseBox off");
+    }
+    smokevis::Check(isGood, "Bounds", "a lower bound is not below its upper bound",
+      "Give xmin, xmax, ymin, ymax, floor and ceiling, or xmin above xmax for the smoke's");
+  }
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
 smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View& view) const
 {
   this->CheckProperties();
@@ -134,26 +161,11 @@ smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View&
   smokevis::RequireMemory("Resolution", "the map",
     places * (PlaceBytes + SignBytes * static_cast<double>(signs.size())), "Give fewer places");
 
-  const smokevis::Medium& smoke = view.TheScene().Smoke();
-  double bounds[6] = {smoke.Lower().x, smoke.Upper().x, smoke.Lower().y, smoke.Upper().y,
-    smoke.Lower().z, smoke.Upper().z};
-  if (!(this->Bounds[0] > this->Bounds[1]))
-  {
-    std::copy_n(this->Bounds, 6, bounds);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (!(bounds[2 * axis] < bounds[2 * axis + 1]) || !std::isfinite(bounds[2 * axis]) ||
-          !std::isfinite(bounds[2 * axis + 1]))
-      {
-        throw Error("Bounds", "a lower bound is not below its upper bound",
-          "Give xmin, xmax, ymin, ymax, floor and ceiling, or xmin above xmax for the smoke's");
-      }
-    }
-  }
+  const std::array<double, 6> bounds = this->Area(view.TheScene().Smoke());
   if (!(this->EyeHeight >= 0.0 && this->EyeHeight <= bounds[5] - bounds[4]))
   {
     throw Error("EyeHeight", "the eyes are not between floor and ceiling",
-      "Give a height above the floor in metres, or other Bounds");
+      "Give a height above the floor in metres, or another area");
   }
 
   smokevis::FloorMapOptions options;
@@ -184,14 +196,15 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     {
       view = &this->Implementation->Input.Get(input);
       options = this->Prepare(*view);
-      const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
-      std::tie(options.First, options.End) = ranks.Share(places);
-      smokevis::RunWithProgress(this, 0.05, 0.98,
-        [&](smokevis::Progress& progress)
-        { map = smokevis::ComputeFloorMap(*view, options, progress); });
     });
-  const std::vector<double> seconds =
-    ranks.Each(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  std::tie(options.First, options.End) =
+    ranks.Share(static_cast<std::size_t>(options.PlacesX) * options.PlacesY);
+  smokevis::RankTeam team(this);
+  team.Run(0.05, 0.98,
+    [&](smokevis::Progress& progress)
+    { map = smokevis::ComputeFloorMap(*view, options, progress); });
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+  const std::vector<double> seconds = ranks.Each(all.count() - team.Waited());
   const std::size_t places = map.Status.size();
   ranks.Complete(map.Status, places);
   ranks.Complete(map.BestSign, places);
@@ -269,6 +282,8 @@ int vtkFloorMapOfVisibility::RequestData(
 void vtkFloorMapOfVisibility::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const auto vector = [&](const char* name, const double* value)
+  { os << indent << name << ": (" << value[0] << ", " << value[1] << ", " << value[2] << ")\n"; };
   os << indent << "EyeHeight: " << this->EyeHeight << "\n";
   os << indent << "Resolution: (" << this->Resolution[0] << ", " << this->Resolution[1] << ")\n";
   os << indent << "Bounds: (";
@@ -276,6 +291,9 @@ void vtkFloorMapOfVisibility::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << this->Bounds[i] << (i < 5 ? ", " : ")\n");
   }
+  os << indent << "UseBox: " << this->UseBox << "\n";
+  vector("BoxPosition", this->BoxPosition);
+  vector("BoxSize", this->BoxSize);
   os << indent << "ContrastThreshold: " << this->ContrastThreshold << "\n";
   os << indent << "ThresholdSpread: " << this->ThresholdSpread << "\n";
   os << indent << "DarkLuminance: " << this->DarkLuminance << "\n";

@@ -28,11 +28,13 @@
 #include "SmokeFiltersModule.h"
 #include <vtkImageAlgorithm.h>
 
+#include <array>
 #include <memory>
 
 namespace smokevis
 {
 struct FloorMapOptions;
+class Medium;
 class View;
 } // namespace smokevis
 
@@ -75,6 +77,21 @@ public:
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the area is a box given by its lower corner and its size [m], as ParaView's panel lets
+   * one draw it, and Bounds is not used. The box stands on the floor and ends at the ceiling; its
+   * sizes are above 0. Default: off, position (-1, -1, -1), size (2, 2, 2).
+   */
+  vtkSetMacro(UseBox, bool);
+  vtkGetMacro(UseBox, bool);
+  vtkBooleanMacro(UseBox, bool);
+  vtkSetVector3Macro(BoxPosition, double);
+  vtkGetVector3Macro(BoxPosition, double);
+  vtkSetVector3Macro(BoxSize, double);
+  vtkGetVector3Macro(BoxSize, double);
   ///@}
 
   ///@{
@@ -173,6 +190,8 @@ private:
   void operator=(const vtkFloorMapOfVisibility&) = delete;
 
   void CheckProperties() const;
+  /// xmin, xmax, ymin, ymax of the area, and the heights of its floor and ceiling.
+  std::array<double, 6> Area(const smokevis::Medium& smoke) const;
   /// Checks what is asked for against the light field.
   smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
   void Compute(vtkDataObject* input, vtkImageData* output);
@@ -180,6 +199,9 @@ private:
   double EyeHeight = 1.7;
   int Resolution[2] = {12, 8};
   double Bounds[6] = {1.0, -1.0, 1.0, -1.0, 1.0, -1.0};
+  bool UseBox = false;
+  double BoxPosition[3] = {-1.0, -1.0, -1.0};
+  double BoxSize[3] = {2.0, 2.0, 2.0};
   double ContrastThreshold = 0.2;
   double ThresholdSpread = 0.04;
   double DarkLuminance = 0.1;

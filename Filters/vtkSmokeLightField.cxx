@@ -6,8 +6,8 @@
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
 #include "LightFieldOutput.h"
-#include "PipelineProgress.h"
 #include "PropertyChecks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
@@ -63,6 +63,20 @@ struct vtkSmokeLightField::Internals
   vtkMTimeType MadeWith = 0;
   smokevis::SceneKeeper Scenes;
   SolvedLight Solved;
+};
+
+//------------------------------------------------------------------------------
+/// What one execution has to do.
+struct vtkSmokeLightField::Task
+{
+  SceneBlocks Blocks;
+  smokevis::SceneOptions Options;
+  smokevis::SceneDescription Description;
+  std::vector<smokevis::WorkItem> Report;
+  /// Whether the light field is that of the last scene, and in the blocks already.
+  bool IsKept = false;
+  /// Time spent on other processes [s].
+  double Waited = 0.0;
 };
 
 //------------------------------------------------------------------------------
@@ -163,25 +177,31 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
-void vtkSmokeLightField::SolveBlocks(smokevis::SceneDescription description,
-  const SceneBlocks& blocks, std::vector<smokevis::WorkItem>& report)
+void vtkSmokeLightField::SolveBlocks(Task& task)
 {
-  const auto scene = this->Implementation->Scenes.Make(std::move(description));
-  report.push_back({"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
+  const smokevis::Ranks ranks;
+  std::shared_ptr<const smokevis::Scene> scene;
+  ranks.Together(
+    this, [&] { scene = this->Implementation->Scenes.Make(std::move(task.Description)); });
+  task.Report.push_back({"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
     scene->SharesShapes() ? "those of the light field before hold the same shapes"
                           : "shapes are new"});
+  smokevis::RankTeam team(this);
   smokevis::LightFieldOptions solver;
   solver.Tolerance = this->Tolerance;
   solver.Skips = this->SkipNeedlessWork;
   solver.Seed = static_cast<std::uint64_t>(this->Seed);
   // TBB warns on the console about threads that the machine does not have.
   solver.Threads = std::min(this->Threads, tbb::info::default_concurrency());
+  solver.Colleagues = &team;
   smokevis::LightField field;
-  smokevis::RunWithProgress(this, 0.02, 0.98,
+  team.Run(0.02, 0.98,
     [&](smokevis::Progress& progress)
     { field = smokevis::SolveLightField(*scene, solver, progress); });
-  report.insert(report.end(), field.Report.begin(), field.Report.end());
-  smokevis::StoreLightField(std::move(field), blocks, this->Bands);
+  task.Waited = team.Waited();
+  task.Report.insert(task.Report.end(), field.Report.begin(), field.Report.end());
+  ranks.Together(
+    this, [&] { smokevis::StoreLightField(std::move(field), task.Blocks, this->Bands); });
 }
 
 //------------------------------------------------------------------------------
@@ -217,13 +237,12 @@ smokevis::SceneOptions vtkSmokeLightField::Options(
 }
 
 //------------------------------------------------------------------------------
-void vtkSmokeLightField::Solve(
-  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
 {
   this->CheckProperties();
-  std::vector<smokevis::WorkItem> report;
+  std::vector<smokevis::WorkItem>& report = task.Report;
   vtkDataObject* const smoke = vtkDataObject::GetData(inputs[0]);
-  SceneBlocks blocks;
+  SceneBlocks& blocks = task.Blocks;
   blocks.Smoke = smokevis::CollectSmoke(smoke, "Smoke");
   blocks.Surfaces = smokevis::CollectPort(inputs[1], "Surfaces");
   blocks.Emitters = smokevis::CollectPort(inputs[2], "Emitters");
@@ -245,33 +264,50 @@ void vtkSmokeLightField::Solve(
     throw Error("Emitters", "nothing gives light",
       "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
   }
-  const smokevis::SceneOptions options = this->Options(smoke, report);
+  task.Options = this->Options(smoke, report);
   smokevis::RequireMemoryForLight(blocks, this->Bands);
 
-  smokevis::SceneDescription description = smokevis::BuildScene(blocks, options);
-  if (this->Bands == RGB && smokevis::BandsAreEqual(description))
+  task.Description = smokevis::BuildScene(blocks, task.Options);
+  if (this->Bands == RGB && smokevis::BandsAreEqual(task.Description))
   {
-    description.Bands = 1;
+    task.Description.Bands = 1;
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});
   }
-  Internals::SolvedLight& last = this->Implementation->Solved;
-  if (last.Tolerance == this->Tolerance && last.Skips == this->SkipNeedlessWork &&
-      last.Seed == this->Seed && last.Bands == this->Bands &&
-      this->Implementation->Scenes.IsLast(description) &&
-      smokevis::ShareLightField(last.Blocks, blocks))
+  const Internals::SolvedLight& last = this->Implementation->Solved;
+  task.IsKept = last.Tolerance == this->Tolerance && last.Skips == this->SkipNeedlessWork &&
+                last.Seed == this->Seed && last.Bands == this->Bands &&
+                this->Implementation->Scenes.IsLast(task.Description) &&
+                smokevis::ShareLightField(last.Blocks, blocks);
+}
+
+//------------------------------------------------------------------------------
+double vtkSmokeLightField::Solve(
+  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+{
+  const smokevis::Ranks ranks;
+  Task task;
+  ranks.Together(this, [&] { this->Prepare(inputs, task); });
+  // Processes may have kept different things when one of them was stopped.
+  if (ranks.Most(task.IsKept ? 0 : 1) == 0)
   {
-    report.push_back({"light fields solved", 0.0,
+    task.Report.push_back({"light fields solved", 0.0,
       "smoke, surfaces and emitters are those of the light field before, which is kept"});
   }
   else
   {
+    Internals::SolvedLight& last = this->Implementation->Solved;
     last = {};
-    this->SolveBlocks(std::move(description), blocks, report);
-    last = {blocks, this->Tolerance, this->SkipNeedlessWork, this->Seed, this->Bands};
+    this->SolveBlocks(task);
+    last = {task.Blocks, this->Tolerance, this->SkipNeedlessWork, this->Seed, this->Bands};
   }
-  smokevis::AddBlocks(*output, blocks);
-  smokevis::AddFields(
-    *output, *smoke, {options, this->AngstromExponent, this->Tolerance, this->Seed}, report);
+  ranks.Together(this,
+    [&]
+    {
+      smokevis::AddBlocks(*output, task.Blocks);
+      smokevis::AddFields(*output, *vtkDataObject::GetData(inputs[0]),
+        {task.Options, this->AngstromExponent, this->Tolerance, this->Seed}, task.Report);
+    });
+  return task.Waited;
 }
 
 //------------------------------------------------------------------------------
@@ -303,9 +339,9 @@ int vtkSmokeLightField::RequestData(
     }
     own.MadeWith = 0;
     const auto start = std::chrono::steady_clock::now();
-    ranks.Together(this, [&] { this->Solve(inputVector, output); });
-    smokevis::ReportRanks(ranks, *output,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    const double waited = this->Solve(inputVector, output);
+    const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+    smokevis::ReportRanks(ranks, *output, all.count() - waited, waited);
     own.MadeOf = contents;
     own.MadeWith = this->GetMTime();
   };

@@ -192,10 +192,14 @@ private:
   /// What the properties, and the smoke's own albedo, make of the scene.
   smokevis::SceneOptions Options(
     vtkDataObject* smoke, std::vector<smokevis::WorkItem>& report) const;
-  void Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
-  /// Solves the light field of a scene and stores it in the scene's blocks.
-  void SolveBlocks(smokevis::SceneDescription description, const smokevis::SceneBlocks& blocks,
-    std::vector<smokevis::WorkItem>& report);
+  struct Task;
+
+  /// Together with all processes of a parallel run. Returns the time spent on the others [s].
+  double Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+  /// Collects the scene.
+  void Prepare(vtkInformationVector** inputs, Task& task);
+  /// Solves the light field of the scene and stores it in the scene's blocks.
+  void SolveBlocks(Task& task);
 
   double Albedo = -1.0;
   double AngstromExponent = 1.0;

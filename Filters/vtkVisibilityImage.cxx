@@ -10,8 +10,8 @@
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
 #include "Photograph.h"
-#include "PipelineProgress.h"
 #include "PropertyChecks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "SignChoice.h"
 #include "ThinLens.h"
@@ -65,6 +65,24 @@ Vec3 Vector(const double* values)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+/// What is taken, from where and with what.
+struct vtkVisibilityImage::Shot
+{
+  const smokevis::View* View = nullptr;
+  Vec3 Eye{0.0};
+  /// Id of the sign that fills the frame, or -1.
+  int Target = -1;
+  int Size[2] = {0, 0};
+  smokevis::Camera Camera;
+  smokevis::ThinLens Lens;
+  smokevis::ResponseCurve Response;
+  smokevis::Adaptation State;
+  smokevis::Observer Observer;
+  /// What was taken.
+  smokevis::TracedImage Image;
+};
 
 //------------------------------------------------------------------------------
 vtkVisibilityImage::vtkVisibilityImage() : Implementation(std::make_unique<Internals>())
@@ -159,9 +177,14 @@ void vtkVisibilityImage::CheckProperties() const
   smokevis::Check(
     static_cast<std::int64_t>(this->ImageSize[0]) * this->ImageSize[1] <= MaximumPixels,
     "ImageSize", "the image has more than 100 million pixels", "Give a smaller image");
-  smokevis::Check(std::all_of(this->CameraPosition, this->CameraPosition + 3,
-                    [](double value) { return std::isfinite(value); }),
-    "CameraPosition", "it is not finite", "Give a point in metres");
+  const std::pair<const char*, const double*> vectors[] = {{"CameraPosition", this->CameraPosition},
+    {"CameraFocalPoint", this->CameraFocalPoint}, {"CameraViewUp", this->CameraViewUp}};
+  for (const auto& [name, values] : vectors)
+  {
+    smokevis::Check(
+      std::all_of(values, values + 3, [](double value) { return std::isfinite(value); }), name,
+      "it is not finite", "Give three numbers, in metres");
+  }
   smokevis::CheckPositive(this->FocalLength, "FocalLength", "Give it in mm");
   smokevis::Check(
     smokevis::IsPositive(this->SensorSize[0]) && smokevis::IsPositive(this->SensorSize[1]),
@@ -182,102 +205,119 @@ void vtkVisibilityImage::CheckProperties() const
 }
 
 //------------------------------------------------------------------------------
-void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
+vtkVisibilityImage::Shot vtkVisibilityImage::Prepare(vtkDataObject* input)
 {
   this->CheckProperties();
-  const smokevis::Adaptation state{
-    this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
-  smokevis::Observer observer = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, state);
-  const smokevis::ResponseCurve response = this->ResponseFile && *this->ResponseFile
-                                             ? smokevis::ResponseCurve::Read(this->ResponseFile)
-                                             : smokevis::ResponseCurve();
+  Shot shot;
+  shot.State = {this->AdaptationLuminance, this->AdaptationTime, this->Glare, this->ObserverAge};
+  shot.Observer = smokevis::CheckedEye(this->DarkLuminance, this->Acuity, shot.State);
+  if (this->ResponseFile && *this->ResponseFile)
+  {
+    shot.Response = smokevis::ResponseCurve::Read(this->ResponseFile);
+  }
   double sensor[2];
-  int size[2];
-  this->UseModel(sensor, size);
+  this->UseModel(sensor, shot.Size);
+  const auto [width, height] = shot.Size;
   smokevis::RequireMemory("ImageSize", "the image",
-    (this->LensBlur ? BlurredPixelBytes : PixelBytes) * size[0] * size[1], "Give a smaller image");
-  const smokevis::ThinLens lens =
-    this->FocusDistance > 0.0
-      ? smokevis::ThinLens::Focused(Millimetre * this->FocalLength, this->FocusDistance)
-      : smokevis::ThinLens::FocusedAtInfinity(Millimetre * this->FocalLength);
-  const smokevis::View& view = this->Implementation->Input.Get(input);
-  const Vec3 eye = Vector(this->CameraPosition);
-  if (view.InsideSolid(eye))
+    (this->LensBlur ? BlurredPixelBytes : PixelBytes) * width * height, "Give a smaller image");
+  const double focalLength = Millimetre * this->FocalLength;
+  shot.Lens = this->FocusDistance > 0.0
+                ? smokevis::ThinLens::Focused(focalLength, this->FocusDistance)
+                : smokevis::ThinLens::FocusedAtInfinity(focalLength);
+  shot.View = &this->Implementation->Input.Get(input);
+  shot.Eye = Vector(this->CameraPosition);
+  if (shot.View->InsideSolid(shot.Eye))
   {
     throw Error("CameraPosition", "it lies inside a solid", "Move the camera into the open");
   }
 
-  const int target =
+  shot.Target =
     smokevis::ChooseSign(this->TargetSignName ? this->TargetSignName : "", this->TargetSign, input);
-  smokevis::Camera camera;
-  std::size_t sign = smokevis::NoSign;
-  if (target >= 0)
+  const Vec3 up = Vector(this->CameraViewUp);
+  if (shot.Target >= 0)
   {
-    sign = smokevis::FindSign(view, target);
+    const std::size_t sign = smokevis::FindSign(*shot.View, shot.Target);
     if (sign == smokevis::NoSign)
     {
-      throw Error("TargetSign", "there is no sign " + std::to_string(target),
+      throw Error("TargetSign", "there is no sign " + std::to_string(shot.Target),
         "The signs of this light field: " + this->Implementation->Input.SignIds());
     }
-    camera = smokevis::Camera::FramePlate(eye, view.TheScene().Lights().Signs()[sign].Corners,
-      Vector(this->CameraViewUp), this->Margin, size[0], size[1]);
+    shot.Camera = smokevis::Camera::FramePlate(shot.Eye,
+      shot.View->TheScene().Lights().Signs()[sign].Corners, up, this->Margin, width, height);
   }
   else
   {
-    camera =
-      smokevis::Camera::LookAt(eye, Vector(this->CameraFocalPoint), Vector(this->CameraViewUp),
-        lens.ImageDistance / Millimetre, sensor[0], sensor[1], size[0], size[1]);
+    shot.Camera = smokevis::Camera::LookAt(shot.Eye, Vector(this->CameraFocalPoint), up,
+      shot.Lens.ImageDistance / Millimetre, sensor[0], sensor[1], width, height);
   }
   if (this->LensBlur)
   {
-    camera.Aperture = lens.FocalLength / this->FNumber;
-    camera.FocusDistance = lens.ObjectDistance;
+    shot.Camera.Aperture = shot.Lens.FocalLength / this->FNumber;
+    shot.Camera.FocusDistance = shot.Lens.ObjectDistance;
   }
+  return shot;
+}
 
-  smokevis::TracedImage image;
-  smokevis::RunWithProgress(this, 0.1, 0.95,
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
+{
+  const smokevis::Ranks ranks;
+  Shot shot;
+  ranks.Together(this, [&] { shot = this->Prepare(input); });
+  smokevis::RankTeam team(this);
+  team.Run(0.1, 0.95,
     [&](smokevis::Progress& progress)
-    { image = smokevis::TraceImage(view, camera, observer.Acuity, progress); });
+    {
+      shot.Image =
+        smokevis::TraceImage(*shot.View, shot.Camera, shot.Observer.Acuity, team, progress);
+    });
+  ranks.Together(this, [&] { this->Develop(shot, output, photograph); });
+}
 
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::Develop(const Shot& shot, vtkImageData* output, vtkImageData* photograph)
+{
   const int bands = this->Implementation->Input.Bands();
-  smokevis::StorePixels(image, size, bands, target, *output);
+  smokevis::StorePixels(shot.Image, shot.Size, bands, shot.Target, *output);
 
-  const int measured = target >= 0 ? target : smokevis::LargestSign(image.SignIds);
+  const int measured = shot.Target >= 0 ? shot.Target : smokevis::LargestSign(shot.Image.SignIds);
   smokevis::SignMeasurement result;
+  smokevis::Observer observer = shot.Observer;
   if (measured >= 0)
   {
-    sign = smokevis::FindSign(view, measured);
+    const std::size_t sign = smokevis::FindSign(*shot.View, measured);
     std::optional<smokevis::GlareSources> glare;
     if (this->Glare)
     {
-      glare.emplace(view, eye);
+      glare.emplace(*shot.View, shot.Eye);
     }
-    observer = smokevis::LookingAt(
-      observer, state, glare ? &*glare : nullptr, view.TheScene().Lights().Signs()[sign]);
-    result = smokevis::MeasureSign(view, sign, eye, observer);
+    observer = smokevis::LookingAt(observer, shot.State, glare ? &*glare : nullptr,
+      shot.View->TheScene().Lights().Signs()[sign]);
+    result = smokevis::MeasureSign(*shot.View, sign, shot.Eye, observer);
   }
-  if (target >= 0 && !result.InView)
+  if (shot.Target >= 0 && !result.InView)
   {
-    vtkWarningMacro("Sign " << target << " is not in view from here: it faces away or is hidden.");
+    vtkWarningMacro(
+      "Sign " << shot.Target << " is not in view from here: it faces away or is hidden.");
   }
   smokevis::StoreMeasurement(result, measured, *output);
   const auto number = [&](const char* name, double value)
   { smokevis::AddFieldNumber(*output, name, {value}); };
-  const smokevis::ExposureSettings exposure{this->FNumber, lens.Magnification(), this->ExposureTime,
-    this->ISO, this->ReadNoise, static_cast<std::uint64_t>(this->NoiseSeed)};
+  const smokevis::ExposureSettings exposure{this->FNumber, shot.Lens.Magnification(),
+    this->ExposureTime, this->ISO, this->ReadNoise, static_cast<std::uint64_t>(this->NoiseSeed)};
   number("SensorIlluminance", smokevis::SensorIlluminance(result.MeanLuminance, exposure));
   number("VisibleProbability",
     result.InView
       ? smokevis::VisibleProbability(result.PerceivedContrast, Threshold, ThresholdSpread)
       : 0.0);
   number("EyeLuminance", observer.DarkLuminance);
-  smokevis::StoreCamera(camera, *output);
-  number("ImageDistance", lens.ImageDistance / Millimetre);
-  number("ObjectDistance", lens.ObjectDistance);
-  number("Magnification", lens.Magnification());
+  smokevis::StoreCamera(shot.Camera, *output);
+  number("ImageDistance", shot.Lens.ImageDistance / Millimetre);
+  number("ObjectDistance", shot.Lens.ObjectDistance);
+  number("Magnification", shot.Lens.Magnification());
 
   const smokevis::Photograph taken = smokevis::TakePhotograph(
-    bands == 3 ? image.LuminanceRGB : image.Luminance, bands, exposure, response);
+    bands == 3 ? shot.Image.LuminanceRGB : shot.Image.Luminance, bands, exposure, shot.Response);
   number("ShutterTime", taken.Time);
   smokevis::StorePhotograph(taken, bands, *output, *photograph);
 }
@@ -300,8 +340,8 @@ int vtkVisibilityImage::RequestData(
     return 0;
   }
   own.FailedFilter = 0;
-  const int done = own.Kept.Produce(this, outputVector,
-    [&] { smokevis::Ranks().Together(this, [&] { this->Trace(input, output, photograph); }); });
+  const int done =
+    own.Kept.Produce(this, outputVector, [&] { this->Trace(input, output, photograph); });
   if (!done)
   {
     own.FailedFilter = this->GetMTime();

@@ -303,7 +303,12 @@ private:
 
   void CheckProperties() const;
   void UseModel(double sensor[2], int size[2]) const;
+  struct Shot;
+
+  Shot Prepare(vtkDataObject* input);
+  /// Takes and develops a shot, together with all processes of a parallel run.
   void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
+  void Develop(const Shot& shot, vtkImageData* output, vtkImageData* photograph);
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};
   int TargetSign = -1;

@@ -7,6 +7,7 @@
 #include "Ranks.h"
 #include "StepWalk.h"
 #include "VisibilityHistory.h"
+#include "WholeInput.h"
 #include "vtkFloorMapOfVisibility.h"
 
 #include <vtkDoubleArray.h>
@@ -130,13 +131,13 @@ int vtkVisibilityOverTime::RequestUpdateExtent(
   try
   {
     smokevis::AskForTime(inputVector[0], this->Steps(inputVector[0]).front());
-    return 1;
   }
-  catch (const std::exception& error)
+  catch (const smokevis::Error&)
   {
-    vtkErrorMacro(<< error.what());
-    return 0;
+    // RequestData runs into it again, and tells of it once.
+    smokevis::RequestWholeInputs(inputVector[0]);
   }
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -172,13 +173,18 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     smokevis::UpdateToTime(input, steps[i]);
-    history.Add(Frame(map, steps[i]));
-    signHistory.Add(SignFrame(map, steps[i]));
-    this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
-    if (this->CheckAbort())
-    {
-      throw Error("visibility over time", "the work was stopped");
-    }
+    // All processes of a parallel run ask for the next step, or none does.
+    smokevis::Ranks().Together(this,
+      [&]
+      {
+        history.Add(Frame(map, steps[i]));
+        signHistory.Add(SignFrame(map, steps[i]));
+        this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
+        if (this->CheckAbort())
+        {
+          throw Error("visibility over time", "the work was stopped");
+        }
+      });
   }
 
   const smokevis::VisibilityHistory::Summary summary = history.Finish();

@@ -8,6 +8,7 @@
 #include "KeptOutput.h"
 #include "MaterialTable.h"
 #include "PipelineProgress.h"
+#include "PrintableText.h"
 #include "Ranks.h"
 
 #include "vtkInformation.h"
@@ -124,7 +125,7 @@ void vtkCADReader::LoadModel()
   smokevis::ApplyImages(*model);
   for (const std::string& warning : model->Warnings)
   {
-    vtkWarningMacro(<< this->FileName << ": " << warning << ".");
+    vtkWarningMacro(<< smokevis::Printable(this->FileName + (": " + warning + ".")));
   }
   own.Model = std::move(model);
   own.ReadName = this->FileName;
@@ -167,7 +168,8 @@ int vtkCADReader::RequestData(
           if (!unmatched.empty())
           {
             vtkWarningMacro(<< "material table '" << this->MaterialTable << "': "
-                            << unmatched.size() << " rows match no material and no object: " << list
+                            << unmatched.size() << " rows match no material and no object: "
+                            << smokevis::Printable(list)
                             << ". The names are in the cell arrays Material and Object.");
           }
         }

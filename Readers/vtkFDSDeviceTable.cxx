@@ -1,6 +1,7 @@
 #include "vtkFDSDeviceTable.h"
 
 #include "Errors.h"
+#include "PrintableText.h"
 #include "SmvFile.h"
 #include "TextFields.h"
 
@@ -51,6 +52,18 @@ std::string ReadText(const std::string& path)
   return text;
 }
 
+// Text of headings as VTK's reader of tables takes it, to which a backslash is the begin of an
+// escape.
+std::string Headings(const std::string& text)
+{
+  std::string escaped;
+  for (const char c : Printable(text))
+  {
+    escaped.append(c == '\\' ? 2 : 1, c);
+  }
+  return escaped;
+}
+
 // One line or a whole table of comma-separated, perhaps quoted fields.
 vtkSmartPointer<vtkTable> ParseCsv(const std::string& text, bool header)
 {
@@ -68,24 +81,34 @@ vtkSmartPointer<vtkTable> ParseCsv(const std::string& text, bool header)
 }
 
 void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
-  vtkStringArray* units, vtkDoubleArray* positions)
+  vtkStringArray* units, vtkDoubleArray* positions, std::vector<std::string>& warnings)
 {
   std::string text = ReadText(path);
   std::erase(text, '\r');
   // A run that still goes has not finished its last line.
-  text.erase(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
+  const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+  const bool cut = !Trim(std::string_view(text).substr(whole)).empty();
+  text.erase(whole);
   const std::size_t unitsEnd = text.find('\n');
   if (unitsEnd == std::string::npos || text.find('\n', unitsEnd + 1) == std::string::npos)
   {
     throw Error(path, "the device table lacks its two heading lines (units and names)",
       "Wait until the run has written them, or run FDS again");
   }
-  const auto unitRow = ParseCsv(text.substr(0, unitsEnd + 1), false);
-  const auto values = ParseCsv(text.substr(unitsEnd + 1), true);
+  const std::size_t namesEnd = text.find('\n', unitsEnd + 1);
+  const auto unitRow = ParseCsv(Headings(text.substr(0, unitsEnd + 1)), false);
+  const auto values = ParseCsv(
+    Headings(text.substr(unitsEnd + 1, namesEnd - unitsEnd)) + text.substr(namesEnd + 1), true);
   if (table->GetNumberOfColumns() > 0 && table->GetNumberOfRows() != values->GetNumberOfRows())
   {
     throw Error(path, "its number of rows differs from that of the run's other device tables",
       "Wait until the run has ended, or keep the devices of a run in one file");
+  }
+  if (cut)
+  {
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    warnings.push_back(path + ": line " + std::to_string(lines + 1) +
+                       " of the device table is cut short; the rows before it are used.");
   }
   for (vtkIdType column = 0; column < values->GetNumberOfColumns(); ++column)
   {
@@ -125,24 +148,25 @@ std::vector<std::string> ReadDeviceTable(const SmvFile& index, vtkTable* table)
   positions->SetName("Position");
   positions->SetNumberOfComponents(3);
   vtkNew<vtkTable> result;
-  std::vector<std::string> missing;
+  std::vector<std::string> warnings;
   for (const auto& [type, file] : index.Tables)
   {
     const std::string path = index.Resolve(file);
     std::error_code problem;
     if (type == "devc" && !std::filesystem::exists(path, problem))
     {
-      missing.push_back(path);
+      warnings.push_back(path + ": the device table is missing, so Devices is empty. Copy the file "
+                                "that the index names beside the index.");
     }
     else if (type == "devc")
     {
-      AppendTable(index, path, result, units, positions);
+      AppendTable(index, path, result, units, positions, warnings);
     }
   }
   result->GetFieldData()->AddArray(units);
   result->GetFieldData()->AddArray(positions);
   table->ShallowCopy(result);
-  return missing;
+  return warnings;
 }
 
 } // namespace smokevis

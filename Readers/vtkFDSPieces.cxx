@@ -114,8 +114,9 @@ std::vector<double> FDSPieces::Each(double own) const
 //------------------------------------------------------------------------------------------------
 void FDSPieces::ReportShares(const ReadingShare& own, vtkFieldData* fields) const
 {
-  ReportRanks(*fields, {this->Each(own.Seconds()), "each process reads its share of the meshes"},
-    {this->Each(static_cast<double>(own.Bytes())), "what it read of the run's files"});
+  ReportRanks(*fields,
+    {{"seconds", this->Each(own.Seconds()), "each process reads its share of the meshes"},
+      {"bytes", this->Each(static_cast<double>(own.Bytes())), "what it read of the run's files"}});
 }
 
 //------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 
 #include "Errors.h"
 #include "KeptOutput.h"
+#include "PrintableText.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -248,7 +249,7 @@ void vtkFDSSmokeReader::Warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< smokevis::Printable(warning));
   }
 }
 
@@ -390,9 +391,5 @@ void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
     return;
   }
   vtkTable* const devices = vtkTable::SafeDownCast(outInfo->Get(vtkDataObject::DATA_OBJECT()));
-  for (const std::string& missing : smokevis::ReadDeviceTable(index, devices))
-  {
-    vtkWarningMacro(<< missing << ": the device table is missing, so Devices is empty. Copy the "
-                    << "file that the index names beside the index.");
-  }
+  this->Warn(smokevis::ReadDeviceTable(index, devices));
 }

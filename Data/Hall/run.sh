@@ -10,9 +10,10 @@ output="$PWD/build/hall"
 plugin="$SMOKEVISIBILITY_BUILD/lib/SmokeVisibility/SmokeVisibility.so"
 mkdir -p "$output"
 
-# ParaView of Debian 12 draws through X only.
+# ParaView of Debian 12 draws through X only; the server is not to reset itself between connections.
+on_screen=(xvfb-run -a -s "-noreset -screen 0 1280x1024x24")
 smokevisibility_say "Computing the hall"
-xvfb-run -a pvpython --force-offscreen-rendering Data/Hall/hall.py "$plugin" "$output" | tee "$output/summary.txt"
+"${on_screen[@]}" pvpython --force-offscreen-rendering Data/Hall/hall.py "$plugin" "$output" | tee "$output/summary.txt"
 
 smokevisibility_say "Opening the state file in a fresh process"
-xvfb-run -a pvpython --force-offscreen-rendering Data/Hall/check_state.py "$plugin" "$output"
+"${on_screen[@]}" pvpython --force-offscreen-rendering Data/Hall/check_state.py "$plugin" "$output"

@@ -27,13 +27,17 @@ namespace
 {
 
 /// Sweeps of the first window in which the orders of scattering build up; each next one is twice as
-/// long. Sweeps that may be drawn in all.
+/// long, until light drifts less than the tolerance. Sweeps that may be drawn in all.
 constexpr int FirstWindow = 2;
 constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
 constexpr double DriftShare = 1.0;
+/// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
+/// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
+/// been, and over 200 seeds the bars hold with this.
+constexpr double DriftErrors = 2.0;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -53,7 +57,8 @@ public:
 
 private:
   void SolveMultiple(int band);
-  int Settle(const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
+    std::vector<BatchState>& batches, std::uint64_t key);
   /// One sweep of this process's batches.
   /// @param meets whether all processes have the sums of all batches afterwards
   void Sweep(
@@ -123,13 +128,13 @@ void Solver::ShareSums(std::vector<BatchState>& batches)
   this->Team_.Share(parts);
 }
 
-int Solver::Settle(
-  const LineSweep& sweep, int band, std::vector<BatchState>& batches, std::uint64_t key)
+int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
+  std::vector<BatchState>& batches, std::uint64_t key)
 {
   const PowerBalance balance(this->Scene_, sweep, band);
   BlockMeans earlier;
   int done = 0;
-  for (int window = FirstWindow;; window *= 2)
+  for (int window = FirstWindow;;)
   {
     const int first = done;
     for (; done < first + window; ++done)
@@ -153,8 +158,8 @@ int Solver::Settle(
     const double limit = DriftShare * this->Options_.Tolerance;
     const BlockMeans::Drift drift =
       first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
-    // A drift that noise does not hide would make the error bars, which tell noise, too small.
-    if (first > 0 && drift.UpperBound < limit && drift.LowerBound == 0.0)
+    const bool tolerable = first > 0 && drift.UpperBound < limit;
+    if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
     {
       return done;
     }
@@ -175,6 +180,7 @@ int Solver::Settle(
       balance.ScaleLatest(batches);
     }
     earlier = std::move(now);
+    window = tolerable ? window : 2 * window;
   }
 }
 
@@ -221,9 +227,9 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  int done = this->Settle(sweep, band, batches, key);
-  const int settling = done - batches.front().Counted;
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
+  int done = this->Settle(sweep, band, probes, batches, key);
+  const int settling = done - batches.front().Counted;
   double error = probes.RelativeError(batches);
   while (error > ErrorShare * this->Options_.Tolerance && done < MostSweeps)
   {

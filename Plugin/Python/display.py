@@ -2,6 +2,7 @@
 
 Works in pvpython, in scripts and in ParaView's Python shell; the macros that come with the plugin call it.
 """
+import json
 import os
 
 from paraview import servermanager, simple
@@ -19,8 +20,13 @@ def show_map(floor_map=None, view=None, array="Visibility"):
     shown.SetRepresentationType("Surface")
     simple.ColorBy(shown, ("POINTS", array))
     if array == "Visibility":
-        simple.ImportPresets(filename=COLOR_MAP)
-        simple.GetColorTransferFunction(array).ApplyPreset("FMV", False)
+        # Importing it as a preset would add one more to those of the user each time.
+        with open(COLOR_MAP) as file:
+            preset = json.load(file)[0]
+        colors = simple.GetColorTransferFunction(array)
+        for name in ("ColorSpace", "NanColor", "RGBPoints"):
+            setattr(colors, name, preset[name])
+        colors.AutomaticRescaleRangeMode = "Never"
     shown.SetScalarBarVisibility(view, True)
     # Light would make the grey of a flat surface depend on where the camera is.
     shown.Ambient, shown.Diffuse, shown.Specular = 1.0, 0.0, 0.0

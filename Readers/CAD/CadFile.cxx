@@ -7,6 +7,7 @@
 #include "Errors.h"
 #include "FileEnd.h"
 #include "MeshModel.h"
+#include "PrintableText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +150,14 @@ CadModel ReadCadFile(const std::string& fileName, const CadOptions& options, Pro
       farthest = std::max(farthest, std::abs(value));
     }
     point = ZUp(point, model.Up);
+  }
+  for (CadMaterial& material : model.Materials)
+  {
+    material.Name = Printable(material.Name);
+  }
+  for (CadObject& object : model.Objects)
+  {
+    object.Name = Printable(object.Name);
   }
   DropDegenerate(model);
   if (model.Triangles.empty())

@@ -154,6 +154,11 @@ std::vector<MaterialRow> ReadMaterialCsv(const std::string& fileName, const std:
     const std::vector<std::string> fields = SplitLine(content, where);
     if (columns.empty())
     {
+      if (fields.size() == 1 && content.find_first_of(";\t") != std::string::npos)
+      {
+        throw Error(where, "its columns are separated by semicolons or tabs",
+          "Save it with commas between the columns, and with decimal points");
+      }
       columns = fields;
       std::transform(columns.begin(), columns.end(), columns.begin(), Lower);
       MaterialRowBuilder trial(fileName, line + 1);

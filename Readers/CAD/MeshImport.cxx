@@ -94,6 +94,11 @@ MeshImport::MeshImport(
       Scene_ =
         Importer_->ReadFile(fileName, aiProcess_ValidateDataStructure | aiProcess_Triangulate);
     });
+  if (Missing_.size() > 1)
+  {
+    // In place of an OBJ's material file assimp looks for one named after the model.
+    Missing_.erase(std::filesystem::path(fileName).stem().string() + ".mtl");
+  }
   std::string why = failure.empty() ? Importer_->GetErrorString() : failure;
   if (!failure.empty())
   {

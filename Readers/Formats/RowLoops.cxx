@@ -53,23 +53,25 @@ public:
 
   SMOKEVIS_INLINE Values NotNegative(Values values)
   {
-    bad_ |= ~((values >= MostNegativeExtinction) & (values <= Greatest));
     const Values zero{};
-    return values > zero ? values : zero;
+    const Values kept = values > zero ? values : zero;
+    // What was taken off a negative value; NaN for NaN and for infinity.
+    good_ &= kept - values <= -MostNegativeExtinction;
+    return kept;
   }
 
   SMOKEVIS_INLINE bool Good() const
   {
-    int any = 0;
+    bool all = true;
     for (int i = 0; i < Width; ++i)
     {
-      any |= bad_[i];
+      all = all && good_[i] != 0;
     }
-    return any == 0;
+    return all;
   }
 
 private:
-  typename Lanes<Width>::Marks bad_{};
+  typename Lanes<Width>::Marks good_ = ~typename Lanes<Width>::Marks{};
 };
 
 /// The place after @p i in steps of Width; the last step ends at @p count, which is at least Width.
@@ -102,25 +104,50 @@ SMOKEVIS_INLINE typename Lanes<Width>::Values SumOfFour(const float* nodes, std:
          (Load<Width>(nodes + 1) + Load<Width>(nodes + layer + 1));
 }
 
+/// The means of so many rows of cells at a time, column by column of registers, so that most sums
+/// of four nodes stay in them. @p before has those of the row of nodes below; @p after gets those
+/// of the last. @p row is the row of nodes below.
+template <int Width, int Rows>
+SMOKEVIS_INLINE void CopyMeansOfRows(const StoredRows& nodes, const float* row, float* target,
+  std::size_t targetStride, const float* before, float* after, Checked<Width>& checked)
+{
+  for (std::size_t i = 0; i < nodes.Cells; i = Next<Width>(i, nodes.Cells))
+  {
+    typename Lanes<Width>::Values below = Load<Width>(before + i);
+    for (int j = 0; j < Rows; ++j)
+    {
+      const typename Lanes<Width>::Values sum =
+        SumOfFour<Width>(row + (j + 1) * nodes.Stride + i, nodes.Layer);
+      Store<Width>(target + j * targetStride + i, checked.NotNegative(0.125F * (below + sum)));
+      below = sum;
+    }
+    Store<Width>(after + i, below);
+  }
+}
+
 template <int Width>
 SMOKEVIS_INLINE bool CopyMeans(
   const StoredRows& nodes, float* target, std::size_t targetStride, float* before, float* after)
 {
+  // More need more registers than there are.
+  constexpr int together = 4;
   Checked<Width> checked;
   const float* row = nodes.First;
   for (std::size_t i = 0; i < nodes.Cells; i = Next<Width>(i, nodes.Cells))
   {
     Store<Width>(before + i, SumOfFour<Width>(row + i, nodes.Layer));
   }
-  for (std::size_t j = 0; j < nodes.Rows; ++j, target += targetStride)
+  std::size_t j = 0;
+  for (; j + together <= nodes.Rows; j += together)
   {
-    row += nodes.Stride;
-    for (std::size_t i = 0; i < nodes.Cells; i = Next<Width>(i, nodes.Cells))
-    {
-      const typename Lanes<Width>::Values sum = SumOfFour<Width>(row + i, nodes.Layer);
-      Store<Width>(after + i, sum);
-      Store<Width>(target + i, checked.NotNegative(0.125F * (Load<Width>(before + i) + sum)));
-    }
+    CopyMeansOfRows<Width, together>(nodes, row, target, targetStride, before, after, checked);
+    row += together * nodes.Stride;
+    target += together * targetStride;
+    std::swap(before, after);
+  }
+  for (; j < nodes.Rows; ++j, row += nodes.Stride, target += targetStride)
+  {
+    CopyMeansOfRows<Width, 1>(nodes, row, target, targetStride, before, after, checked);
     std::swap(before, after);
   }
   return checked.Good();

@@ -2,17 +2,25 @@
 #include "SmvParser.h"
 
 #include "Errors.h"
+#include "PrintableText.h"
 #include "SmvFile.h"
 #include "TextFields.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 namespace smokevis
 {
+
+namespace
+{
+// A thousand meshes with thousands of obstructions each stay far below.
+constexpr std::uintmax_t MostBytes = std::uintmax_t{4} << 30;
+} // namespace
 
 //------------------------------------------------------------------------------------------------
 SmvParser::SmvParser(SmvFile& index) : index_(index)
@@ -54,13 +62,24 @@ void SmvParser::Run()
 void SmvParser::ReadLines()
 {
   std::error_code problem;
-  const bool regular = std::filesystem::is_regular_file(index_.Path, problem);
-  std::ifstream stream(index_.Path, std::ios::binary);
-  if (!regular || !stream)
+  std::ifstream stream;
+  // Opening a pipe would wait for whoever writes into it.
+  if (std::filesystem::is_regular_file(index_.Path, problem))
+  {
+    stream.open(index_.Path, std::ios::binary);
+  }
+  if (!stream.is_open())
   {
     throw Error(index_.Path, "the FDS index cannot be opened", "Check the name and permissions");
   }
-  text_.resize(std::filesystem::file_size(index_.Path));
+  const std::uintmax_t bytes = std::filesystem::file_size(index_.Path);
+  if (bytes > MostBytes)
+  {
+    throw Error(index_.Path,
+      "it has " + std::to_string(bytes) + " bytes, more than the index of any run",
+      "Choose the .smv file that FDS wrote beside its results");
+  }
+  text_.resize(bytes);
   stream.read(text_.data(), static_cast<std::streamsize>(text_.size()));
   if (!stream)
   {
@@ -99,19 +118,19 @@ void SmvParser::Parse(std::string_view line)
   }
   if (word == "CHID")
   {
-    index_.Chid = this->NextText();
+    index_.Chid = this->NextLabel();
   }
   else if (word == "TITLE")
   {
-    index_.Title = this->NextText();
+    index_.Title = this->NextLabel();
   }
   else if (word == "FDSVERSION" || word == "VERSION")
   {
-    index_.Version = this->NextText();
+    index_.Version = this->NextLabel();
   }
   else if (word == "SURFDEF")
   {
-    index_.DefaultSurfaceName = this->NextText();
+    index_.DefaultSurfaceName = this->NextLabel();
   }
   else if (word == "TIMES")
   {
@@ -268,6 +287,12 @@ std::string SmvParser::NextText()
 }
 
 //------------------------------------------------------------------------------------------------
+std::string SmvParser::NextLabel()
+{
+  return Printable(Trim(this->Next()));
+}
+
+//------------------------------------------------------------------------------------------------
 std::vector<double> SmvParser::NextNumbers(std::size_t atLeast, const char* what)
 {
   std::vector<double> numbers = SplitNumbers(this->Next());
@@ -308,9 +333,9 @@ int SmvParser::MeshNumber(int oneBased, const char* what) const
 SmvQuantity SmvParser::NextQuantity()
 {
   SmvQuantity quantity;
-  quantity.LongLabel = this->NextText();
-  quantity.ShortLabel = this->NextText();
-  quantity.Unit = this->NextText();
+  quantity.LongLabel = this->NextLabel();
+  quantity.ShortLabel = this->NextLabel();
+  quantity.Unit = this->NextLabel();
   return quantity;
 }
 

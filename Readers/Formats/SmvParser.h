@@ -36,6 +36,8 @@ private:
 
   std::string_view Next();
   std::string NextText();
+  /// As NextText(), for what is shown rather than looked for on the disk.
+  std::string NextLabel();
   std::vector<double> NextNumbers(std::size_t atLeast, const char* what);
   int NextCount(const char* what, std::size_t linesEach);
   int MeshNumber(int oneBased, const char* what) const;

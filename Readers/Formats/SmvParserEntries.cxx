@@ -1,4 +1,5 @@
 // The index's entries, one function a kind of entry.
+#include "PrintableText.h"
 #include "SmvFile.h"
 #include "SmvParser.h"
 #include "TextFields.h"
@@ -25,7 +26,7 @@ int ToInteger(double number)
 void SmvParser::ParseSurface()
 {
   SmvSurface surface;
-  surface.Name = this->NextText();
+  surface.Name = this->NextLabel();
   this->Next(); // ignition temperature and emissivity
   const auto numbers = this->NextNumbers(7, "type, texture size, colour");
   surface.Type = ToInteger(numbers[0]);
@@ -54,7 +55,7 @@ void SmvParser::ParseGrid(std::string_view line)
   std::copy(counts.begin(), counts.end(), cells_.begin());
   index_.Meshes.emplace_back();
   index_.Meshes.back().Name =
-    line.empty() ? "mesh " + std::to_string(index_.Meshes.size()) : std::string(line);
+    line.empty() ? "mesh " + std::to_string(index_.Meshes.size()) : Printable(line);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -124,7 +125,7 @@ void SmvParser::ParseObstructions()
   for (SmvObstruction& obstruction : obstructions)
   {
     const auto numbers = SplitNumbers(Before(lines_[line_], '!'));
-    obstruction.Name = std::string(Trim(After(this->Next(), '!')));
+    obstruction.Name = Printable(Trim(After(this->Next(), '!')));
     if (numbers.size() < 13)
     {
       this->Fail("an obstruction needs six bounds, a number and six surfaces");
@@ -217,9 +218,10 @@ void SmvParser::ParseVents(bool circular)
 //------------------------------------------------------------------------------------------------
 void SmvParser::ParseSlice(std::string_view line, bool cellCentred)
 {
-  // mesh # TYPE [% ID] & i1 i2 j1 j2 k1 k2 ! index cell_centred IOR
+  // mesh # TYPE [% ID] & i1 i2 j1 j2 k1 k2 ! index cell_centred IOR; the ID is the analyst's and
+  // may have marks of its own.
   const auto mesh = SplitIntegers(line, 1, 6);
-  const auto range = SplitIntegers(Before(After(line, '&'), '!'), 6, 6);
+  const auto range = SplitIntegers(Before(AroundLast(line, '&').second, '!'), 6, 6);
   if (mesh.empty() || range.size() < 6)
   {
     this->Fail("a slice needs its mesh number and six indices");
@@ -291,9 +293,10 @@ void SmvParser::ParseBoundary(std::string_view line, bool cellCentred)
 void SmvParser::ParseDevice()
 {
   SmvDevice device;
-  const std::string_view line = this->Next();
-  device.Name = std::string(Trim(Before(line, '%')));
-  device.Quantity = std::string(Trim(After(line, '%')));
+  // The name may have marks of its own, as in "door 50% open % TEMPERATURE".
+  const auto [name, quantity] = AroundLast(this->Next(), '%');
+  device.Name = Printable(Trim(name));
+  device.Quantity = Printable(Trim(quantity));
   // Fortran writes asterisks for numbers that are wider than their field, as map coordinates are.
   const std::string_view place = this->Next();
   const auto numbers = SplitNumbers(place);

@@ -190,4 +190,12 @@ std::string_view After(std::string_view text, char mark)
   return place == std::string_view::npos ? std::string_view() : text.substr(place + 1);
 }
 
+//------------------------------------------------------------------------------------------------
+std::pair<std::string_view, std::string_view> AroundLast(std::string_view text, char mark)
+{
+  const std::size_t place = text.rfind(mark);
+  return place == std::string_view::npos ? std::pair(text, std::string_view())
+                                         : std::pair(text.substr(0, place), text.substr(place + 1));
+}
+
 } // namespace smokevis

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace smokevis
@@ -26,5 +27,9 @@ std::string_view Before(std::string_view text, char mark);
 
 /// The part of @p text behind the first @p mark (nothing when there is none).
 std::string_view After(std::string_view text, char mark);
+
+/// The parts of @p text before and behind the last @p mark; all of it is before where there is
+/// none.
+std::pair<std::string_view, std::string_view> AroundLast(std::string_view text, char mark);
 
 } // namespace smokevis

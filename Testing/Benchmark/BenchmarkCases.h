@@ -72,6 +72,8 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
 void RunGrowth(const Settings& settings);
 /// threads: one thread against two.
 void RunThreads(const Settings& settings);
+/// skips: what each thing that is left out saves, and what it changes.
+void RunSkips(const Settings& settings);
 /// steps: nanoseconds a step of a ray from cell to cell.
 void RunSteps(const Settings& settings);
 

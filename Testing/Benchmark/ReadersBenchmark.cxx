@@ -64,17 +64,37 @@ double Best(int runs, const std::function<void()>& work, double (*clock)() = Com
   return best;
 }
 
-// The best of several runs of each of two works in turn [s]: what disturbs one disturbs the other.
-std::array<double, 2> BestInTurn(int runs, const std::function<void()>& one,
-  const std::function<void()>& other, double (*clock)() = Computed)
+// How two works compare that are done in turn: what disturbs one disturbs the other.
+struct Comparison
 {
-  std::array<double, 2> best{1e30, 1e30};
-  for (int i = 0; i < runs; ++i)
+  // The least time that each took [s].
+  double One = 1e30;
+  double Other = 1e30;
+  // One's time over the other's, turn by turn: the median, and what a tenth of the turns are below
+  // and above.
+  double Median = 0.0;
+  double Low = 0.0;
+  double High = 0.0;
+};
+
+Comparison InTurn(int turns, const std::function<void()>& one, const std::function<void()>& other,
+  double (*clock)() = Computed)
+{
+  Comparison result;
+  std::vector<double> ratios;
+  for (int i = 0; i < turns; ++i)
   {
-    best[0] = std::min(best[0], Best(1, one, clock));
-    best[1] = std::min(best[1], Best(1, other, clock));
+    const double first = Best(1, one, clock);
+    const double second = Best(1, other, clock);
+    result.One = std::min(result.One, first);
+    result.Other = std::min(result.Other, second);
+    ratios.push_back(first / second);
   }
-  return best;
+  std::sort(ratios.begin(), ratios.end());
+  result.Low = ratios[ratios.size() / 10];
+  result.Median = ratios[ratios.size() / 2];
+  result.High = ratios[ratios.size() - 1 - ratios.size() / 10];
+  return result;
 }
 
 void PutRecord(std::ostream& stream, const void* data, std::size_t size)
@@ -182,6 +202,12 @@ void Row(const char* what, double value, const char* unit, double promise, bool 
   failed = failed || (atLeast ? value < 0.5 * promise : value > 2.0 * promise);
 }
 
+void CompareRow(const char* what, const Comparison& comparison)
+{
+  Row(what, comparison.Median, "", 0.5, true);
+  std::printf("    four turns of five between %.3f and %.3f\n", comparison.Low, comparison.High);
+}
+
 void TimeIndex(const std::filesystem::path& folder)
 {
   std::string text = Head;
@@ -202,7 +228,8 @@ void TimeIndex(const std::filesystem::path& folder)
   Row("  reading it", seconds, "s", 0.2, false);
 }
 
-// Reads the bytes of the last frame of each mesh into a buffer that was used before.
+// Reads the bytes of the last frame of a mesh into a buffer that was used before: a plain copy. The
+// reader, too, writes to memory of the mesh's own that was used before.
 void CopyFrame(
   const std::filesystem::path& folder, bool cellCentred, int mesh, std::vector<char>& buffer)
 {
@@ -243,19 +270,18 @@ void TimeFrames(const std::filesystem::path& folder, bool cellCentred)
   };
   const auto parallel = [](const auto& work)
   { return [&work] { tbb::parallel_for(0, Meshes, work); }; };
-  constexpr int runs = 40;
-  const auto [copied, readAlone] = BestInTurn(runs, serial(copy), serial(read));
-  const auto [copiedTogether, readTogether] =
-    BestInTurn(runs, parallel(copy), parallel(read), Passed);
+  constexpr int turns = 100;
+  const Comparison alone = InTurn(turns, serial(copy), serial(read));
+  const Comparison together = InTurn(turns, parallel(copy), parallel(read), Passed);
   const double gigabytes = static_cast<double>(Meshes) * static_cast<double>(MeshCells) * 4e-9;
   std::printf("A %s-centred frame of 10 million cells in %d meshes: opened in %.1f ms\n",
     cellCentred ? "cell" : "node", Meshes, 1e3 * opening);
-  std::printf("  copying its bytes: %.2f GB/s alone, %.2f GB/s together\n", gigabytes / copied,
-    gigabytes / copiedTogether);
-  std::printf("  reading it:        %.2f GB/s alone, %.2f GB/s together\n", gigabytes / readAlone,
-    gigabytes / readTogether);
-  Row("  reading against copying, one thread", copied / readAlone, "", 0.5, true);
-  Row("  reading against copying, all threads", copiedTogether / readTogether, "", 0.5, true);
+  std::printf("  copying its bytes: at best %.2f GB/s alone, %.2f GB/s together\n",
+    gigabytes / alone.One, gigabytes / together.One);
+  std::printf("  reading it:        at best %.2f GB/s alone, %.2f GB/s together\n",
+    gigabytes / alone.Other, gigabytes / together.Other);
+  CompareRow("  reading against copying in turn, one thread (CPU time)", alone);
+  CompareRow("  reading against copying in turn, all threads", together);
 }
 
 void TimeRuns(const std::string& data)

@@ -20,6 +20,7 @@ const std::map<std::string, std::function<void(const Settings&)>> Cases = {
   {"growth", RunGrowth},
   {"threads", RunThreads},
   {"steps", RunSteps},
+  {"skips", RunSkips},
 };
 
 std::vector<std::string> SplitList(const std::string& list)
@@ -77,7 +78,7 @@ void PrintUsage()
 {
   std::fprintf(stderr,
     "SmokeBenchmark --case A,B,... [options]\n"
-    "  cases: tunnel hall12 hall110 hall10m growth threads steps\n"
+    "  cases: tunnel hall12 hall110 hall10m growth threads steps skips\n"
     "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver\n"
     "  --samples 1,4,16,64               samples a pixel of the reference integrator\n"
     "  --reference-tolerance 0.001       of what errors are measured against; 0: no errors (hall)\n"

@@ -1,4 +1,6 @@
 """Bad input to light field and views: one message that says what to do, and no output."""
+import math
+
 import numpy
 
 import scenes
@@ -99,6 +101,8 @@ def check_views():
     picture("more than 100 million", ImageSize=[10 ** 6, 10 ** 6])
     picture("FocalLength", FocalLength=0)
     picture("coincide", CameraFocalPoint=[0.2, 0.1, 0.1])
+    picture("CameraFocalPoint: it is not finite", CameraFocalPoint=[1.0, math.nan, 0.1])
+    picture("CameraViewUp: it is not finite", CameraViewUp=[0.0, 0.0, math.inf])
 
     def floor(*parts, **properties):
         settings = dict(EyeHeight=0.5)

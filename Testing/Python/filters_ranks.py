@@ -9,10 +9,15 @@ import hashlib
 import os
 import sys
 import tempfile
+import time
+import traceback
 
 import numpy
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scenes  # noqa: E402
 
 TIME = 20.0  # s
 PLUGIN, DATA, OUTPUT = sys.argv[1:4]
@@ -27,12 +32,23 @@ def build():
     lamp = simple.Luminaire(Center=[4.8, 1.2, 2.39], Normal=[0, 0, -1], LuminousFlux=100)
     light = simple.SmokeLightField(
         Smoke=run, Surfaces=[simple.OutputPort(run, 1), building], Emitters=[sign, lamp], Albedo=0.5,
-        Tolerance=0.5, PatchSize=2)
+        Bands="RGB", Tolerance=0.5, PatchSize=2)
     image = simple.VisibilityImage(LightField=light, CameraPosition=[2.5, 1.2, 1.6], TargetSign=0,
-                                   ImageSize=[24, 12])
+                                   ImageSize=[80, 40])
     floor = simple.FloorMapOfVisibility(LightField=light, Resolution=[7, 5], EyeHeight=1.6)
     practice = simple.JinVisibility(LightField=light, FloorMap=floor)
     return light, image, floor, practice
+
+
+def exr_pixels(path):
+    """What follows the header of an OpenEXR file, which holds run times, and the table of places after it."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 8
+    while data[at] != 0:  # entries: name, type, size, value
+        at = data.index(b"\0", data.index(b"\0", at) + 1) + 1
+        at += 4 + int.from_bytes(data[at:at + 4], "little")
+    return data[int.from_bytes(data[at + 1:at + 9], "little"):]
 
 
 def digest(data, lines, where):
@@ -50,6 +66,104 @@ def digest(data, lines, where):
                                            hashlib.sha256(values.tobytes()).hexdigest()))
 
 
+def work_report(data):
+    what, count = (data.GetFieldData().GetAbstractArray("WorkReport" + name) for name in ("What", "Count"))
+    return {what.GetValue(i): count.GetValue(i) for i in range(what.GetNumberOfValues())}
+
+
+def check_shares(told, ranks):
+    """Sixteen batches of lines are dealt out; all processes together do the work of one."""
+    for band in range(3):
+        sweeps = sum(told[f"band {band}: {kind} sweeps"] for kind in ("settling", "counted"))
+        lines = told[f"band {band}: lines a sweep and batch"] * sweeps
+        shares = [told.get(f"band {band}: lines of process {rank}", 16 * lines) / lines
+                  for rank in range(ranks)]
+        assert shares == [(16 + ranks - 1 - rank) // ranks for rank in range(ranks)], shares
+
+
+def set_own(proxy, **values):
+    """Sets properties of this process's filter."""
+    for name, value in values.items():
+        setattr(proxy, name, value)
+    proxy.SMProxy.UpdateVTKObjects()
+
+
+def check_abort(proxy, rank, ranks, lines):
+    """An abort on the last process leaves all of them with the field they had, at once."""
+    light = proxy.GetClientSideObject()
+    before, after = [], []
+    digest(light.GetOutputDataObject(0), before, "light")
+    for share in (None, 0.05, 0.3):
+        # Long enough to be stopped on its way.
+        set_own(proxy, Seed=proxy.Seed + 1, Tolerance=0.01)
+        stopped = []
+
+        def stop(caller, _):
+            if not stopped and caller.GetProgress() >= share:
+                stopped.append(time.monotonic())
+                caller.SetAbortExecute(1)
+
+        tag = None
+        if rank == ranks - 1:
+            if share is None:
+                light.SetAbortExecute(1)
+            else:
+                tag = light.AddObserver("ProgressEvent", stop)
+        with scenes.Messages() as messages:
+            light.UpdateTimeStep(TIME, 0, 1, 0)
+        assert not messages.text, messages.text
+        if tag is not None:
+            # Half a second is promised; the machine that tests may be busy.
+            assert stopped and time.monotonic() - stopped[0] < 5.0, (share, stopped)
+            light.RemoveObserver(tag)
+        light.SetAbortExecute(0)
+        after = []
+        digest(light.GetOutputDataObject(0), after, "light")
+        assert after == before, (rank, share)
+    set_own(proxy, Tolerance=0.5)
+    fractions = []
+    tag = light.AddObserver("ProgressEvent", lambda caller, _: fractions.append(caller.GetProgress()))
+    light.UpdateTimeStep(TIME, 0, 1, 0)
+    light.RemoveObserver(tag)
+    assert fractions == sorted(fractions) and fractions[-1] == 1.0, fractions
+    after = []
+    digest(light.GetOutputDataObject(0), after, "light")
+    assert after != before
+    lines += ["after an abort " + line for line in after]
+
+
+def check_disagreement(proxy, rank, ranks, lines):
+    """Processes that were given different things to do say so, and none waits for the others."""
+    light = proxy.GetClientSideObject()
+    set_own(proxy, PatchSize=0.9 if rank == 0 else 0.8)
+    with scenes.Messages() as messages:
+        light.UpdateTimeStep(TIME, 0, 1, 0)
+    assert ("the processes do not agree" in messages.text) == (ranks > 1), (rank, messages.text)
+    assert (light.GetOutputDataObject(0).GetNumberOfCells() == 0) == (ranks > 1)
+    set_own(proxy, PatchSize=2.0)
+    light.UpdateTimeStep(TIME, 0, 1, 0)
+    digest(light.GetOutputDataObject(0), lines, "after an error light")
+
+
+def check_errors(rank, ranks):
+    """What one process lacks, or cannot solve, is an error for all, and nobody waits for it."""
+    smoke = simple.FindSource("FDSSmokeReader1")
+    with tempfile.TemporaryDirectory() as temporary:
+        for case, message in (("lacks", "no such file"), ("dark", "nothing emits light")):
+            table = os.path.join(temporary, case + ".csv")
+            if rank == 0 or case == "dark":
+                with open(table, "w") as file:
+                    file.write("id,cx,cy,cz,nx,ny,nz,luminance\n0,0.1,1.2,2,1,0,0,%d\n" % (rank == 0))
+            broken = simple.FloorMapOfVisibility(LightField=simple.SmokeLightField(
+                Smoke=smoke, Emitters=[simple.ExitSign(SignTable=table)], Tolerance=0.5), Resolution=[2, 2])
+            with scenes.Messages() as messages:
+                broken.GetClientSideObject().UpdateTimeStep(TIME, 0, 1, 0)
+            wanted = (message if rank > 0 else "another process") if ranks > 1 else ""
+            assert wanted in messages.text, (rank, messages.text)
+            assert broken.GetClientSideObject().GetOutputDataObject(0).GetNumberOfPoints() == (
+                4 if ranks == 1 else 0)
+
+
 def check_server():
     """What a client gets of maps and image that several server processes made."""
     simple.Connect("localhost", int(PORT))
@@ -62,15 +176,13 @@ def check_server():
     for name, proxy in zip(("image", "map", "practice"), build()[1:]):
         proxy.UpdatePipeline(TIME)
         # Shown and saved once, not once a process.
-        assert proxy.GetDataInformation().GetNumberOfPoints() == (288 if name == "image" else 35)
+        assert proxy.GetDataInformation().GetNumberOfPoints() == (3200 if name == "image" else 35)
         digest(servermanager.Fetch(proxy), lines, name)
     return lines
 
 
 def check_ranks():
     from vtkmodules.vtkParallelCore import vtkMultiProcessController
-
-    import scenes
 
     simple.LoadPlugin(PLUGIN, ns=vars(simple))
     controller = vtkMultiProcessController.GetGlobalController()
@@ -83,9 +195,10 @@ def check_ranks():
         data = algorithm.GetOutputDataObject(0)
         digest(data, lines, name)
         if name in ("light", "map"):
-            what = data.GetFieldData().GetAbstractArray("WorkReportWhat")
-            told = [what.GetValue(i) for i in range(what.GetNumberOfValues())]
-            assert ("seconds of process 1" in told) == (ranks > 1), told
+            told = work_report(data)
+            assert [f"seconds of process {i}" in told for i in range(ranks)] == [ranks > 1] * ranks, told
+        if name == "light":
+            check_shares(told, ranks)
     # A view asks for pieces: every block is drawn once, and nothing is solved anew.
     light, image, floor, _ = (proxy.GetClientSideObject() for proxy in filters)
     starts = []
@@ -101,43 +214,55 @@ def check_ranks():
         assert vtk_to_numpy(result)[0] == whole, (algorithm.GetClassName(), own, whole)
     assert all(fraction in (0.0, 1.0) for fraction in starts), starts
 
+    # One band is enough for the rest.
+    set_own(filters[0], Bands="Luminance")
+
     # Through time all processes walk together, and the first one writes the file.
     over_time = simple.VisibilityOverTime(FloorMap=filters[2], TimeRange=[18.5, 23.0])
     route = simple.RouteVisibility(
         LightField=filters[0], Route=simple.PolyLineSource(Points=[2.5, 1.2, 0, 0.5, 1.2, 0]), StartTime=20.5)
     for name, proxy in (("over", over_time), ("route", route)):
         algorithm = proxy.GetClientSideObject()
+        # One process gives up after a step: so do all.
+        tag = algorithm.AddObserver(
+            "ProgressEvent", lambda caller, _: caller.SetAbortExecute(1)) if rank == ranks - 1 else None
+        algorithm.UpdateTimeStep(0.0, 0, 1, 0)
+        assert algorithm.GetOutputDataObject(0).GetNumberOfPoints() == 0
+        if tag is not None:
+            algorithm.RemoveObserver(tag)
+        algorithm.SetAbortExecute(0)
         algorithm.UpdateTimeStep(0.0, 0, 1, 0)
         assert algorithm.GetOutputDataObject(0).GetNumberOfPoints() == (35 if name == "over" else 5)
         digest(algorithm.GetOutputDataObject(0), lines, "time " + name)
     simple.SaveData(OUTPUT + ".nc", proxy=filters[2], TimeRange=[18.5, 23.0])
+    filters[1].UpdatePipeline(TIME)
+    simple.SaveData(OUTPUT + ".exr", proxy=filters[1])
+    with scenes.Messages() as messages:
+        try:
+            simple.SaveData(os.path.join(OUTPUT + " is no folder", "image.exr"), proxy=filters[1])
+        except RuntimeError:
+            pass
+    assert ("cannot be written" if rank == 0 else "another process") in messages.text, (rank, messages.text)
     if rank == 0:
         with open(OUTPUT + ".nc", "rb") as file:
             lines.append("time file %s" % hashlib.sha256(file.read()).hexdigest())
+        lines.append("time image %s" % hashlib.sha256(exr_pixels(OUTPUT + ".exr")).hexdigest())
 
-    # What one process lacks is an error for all, and nobody waits for it.
-    with tempfile.TemporaryDirectory() as temporary:
-        table = os.path.join(temporary, "signs.csv")
-        if rank == 0:
-            with open(table, "w") as file:
-                file.write("id,cx,cy,cz,nx,ny,nz\n0,0.1,1.2,2,1,0,0\n")
-        sign = simple.ExitSign(SignTable=table)
-        smoke = simple.FindSource("FDSSmokeReader1")
-        broken = simple.FloorMapOfVisibility(LightField=simple.SmokeLightField(
-            Smoke=smoke, Emitters=[sign], Tolerance=0.5), Resolution=[2, 2])
-        with scenes.Messages() as messages:
-            broken.GetClientSideObject().UpdateTimeStep(TIME, 0, 1, 0)
-        wanted = ("no such file" if rank > 0 else "another process") if ranks > 1 else ""
-        assert wanted in messages.text, (rank, messages.text)
-        assert broken.GetClientSideObject().GetOutputDataObject(0).GetNumberOfPoints() == (
-            4 if ranks == 1 else 0)
+    check_abort(filters[0], rank, ranks, lines)
+    check_disagreement(filters[0], rank, ranks, lines)
+    check_errors(rank, ranks)
     print("rank %d of %d: as expected" % (rank, ranks), flush=True)
     return lines if rank == 0 else None
 
 
 sys.argv = sys.argv[:3]
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-found = check_server() if PORT else check_ranks()
+try:
+    found = check_server() if PORT else check_ranks()
+except Exception:
+    # The other processes wait for this one, so that only its sudden end ends them all.
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
 if found:
     with open(OUTPUT, "w") as result_file:
         result_file.write("\n".join(sorted(found)) + "\n")

@@ -112,8 +112,12 @@ floor_map.EyeHeight = 1.0
 steady = simple.FloorMapOfVisibility(LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), EyeHeight=0.5)
 for properties, words in (({"FloorMap": steady}, "it has no time steps"),
                           ({"FloorMap": floor_map, "TimeRange": [700.0, 800.0]}, "no time step lies within it"),
-                          ({"FloorMap": exit_sign}, "Visibility")):
+                          ({"FloorMap": floor_map, "Stride": 0}, "Stride: it is below 1")):
     with scenes.Messages() as messages:
         simple.VisibilityOverTime(**properties).UpdatePipeline()
-    assert words in messages.text, (words, messages.text)
+    assert words in messages.text and messages.count("ERROR", "vtkVisibilityOverTime") == 1, (words, messages.text)
+# VTK itself refuses what is no map at all.
+with scenes.Messages() as messages:
+    simple.VisibilityOverTime(FloorMap=exit_sign).UpdatePipeline()
+assert "vtkImageData is required" in messages.text, messages.text
 print("time: passed")

@@ -49,7 +49,8 @@ for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
         name = proxy.get("name")
         assert proxy.find("Documentation") is not None, name
         printed = printed_values(group, name)
-        grouped = [entry.get("name") for group in proxy.findall("PropertyGroup") for entry in group]
+        grouped = [entry.get("name") for group in proxy.findall("PropertyGroup")
+                   for entry in group.findall("Property")]
         assert len(grouped) == len(set(grouped)), (name, grouped)
         known = set()
         for element in proxy:
@@ -80,6 +81,10 @@ for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
             checked += 1
         assert set(grouped) <= known, (name, set(grouped) - known)
 
+        # ParaView asks for the inputs of a filter in a dialog where two of them are not optional.
+        inputs = proxy.findall("InputProperty")
+        assert len(inputs) < 2 or sum(entry.find("Hints/Optional") is None for entry in inputs) > 1, name
+
         # --- menus and files --------------------------------------------------------------------------
         menu = proxy.find("Hints/ShowInMenu")
         reader = proxy.find("Hints/ReaderFactory")
@@ -103,10 +108,14 @@ floor = simple.FloorMapOfVisibility(
     LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), Resolution=[4, 2], EyeHeight=0.5)
 shown = simple.Show(floor, view)
 assert shown.Representation == "Surface", shown.Representation
-assert simple.ImportPresets(filename=os.path.join(folder, "ColorMaps", "FMV.json"))
-simple.ColorBy(shown, ("POINTS", "Visibility"))
+# Shown, it has the colours of the preset, which do not follow the data: 0.2 is the threshold.
+assert list(shown.ColorArrayName) == ["POINTS", "Visibility"], shown.ColorArrayName
 colors = simple.GetColorTransferFunction("Visibility")
+assert colors.AutomaticRescaleRangeMode == "Never" and shown.LookupTable == colors
+points = list(colors.RGBPoints)
+assert simple.ImportPresets(filename=os.path.join(folder, "ColorMaps", "FMV.json"))
 assert colors.ApplyPreset("FMV", False)
+assert numpy.allclose(points, list(colors.RGBPoints)), points
 table = colors.GetClientSideObject()
 
 
@@ -121,6 +130,51 @@ for value in (0.21, 0.5, 0.9):
     assert max(color(value)) - min(color(value)) < 1e-6, color(value)
 assert color(0.9)[0] > color(0.5)[0] > color(0.21)[0]
 assert color(0.1) == color(0.19) and color(0.1)[0] > 2 * color(0.1)[1]
+
+# What users have saved comes first; their own settings, of the highest priority, are not to be touched here.
+settings = simple.servermanager.vtkSMSettings.GetInstance()
+own = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
+assert settings.AddCollectionFromString(
+    '{"array_lookup_tables": {"LeastVisibility": {"PVLookupTable": {"RGBPoints": %s}}}}' % own, 0.5)
+assert list(simple.GetColorTransferFunction("LeastVisibility").RGBPoints) == own
+
+# Signs are bright, images grey, and what others make of the map's places has a legend.
+for emitters in (simple.ExitSign(), simple.Luminaire()):
+    shown = simple.Show(emitters, view)
+    assert list(shown.ColorArrayName) == ["CELLS", "Luminance"], shown.ColorArrayName
+    assert list(shown.LookupTable.RGBPoints)[1:4] == [0, 0, 0], list(shown.LookupTable.RGBPoints)
+    assert list(shown.LookupTable.RGBPoints)[-3:] == [1, 1, 1], list(shown.LookupTable.RGBPoints)
+shown = simple.Show(simple.JinVisibility(LightField=floor.LightField, FloorMap=floor), view)
+assert list(shown.ColorArrayName) == ["POINTS", "JinDifference"], shown.ColorArrayName
+assert shown.LookupTable.InterpretValuesAsCategories == 1
+assert shown.LookupTable.Annotations[:4] == ["0", "seen by both", "1", "by the practice only"]
+assert len(shown.LookupTable.IndexedColors) == 21 and len(shown.LookupTable.Annotations) == 14
+
+# --- the area of a map, as a box in the view ----------------------------------------------------------
+# The box begins around the light field, here the tunnel of 4 x 1 x 1 m, and comes in place of Bounds.
+for group in xml.parse(os.path.join(folder, "FloorMapOfVisibility.xml")).getroot().iter("PropertyGroup"):
+    if group.get("panel_widget") == "InteractiveBox":
+        assert [(entry.get("function"), entry.get("name")) for entry in group.findall("Property")] == [
+            ("Position", "BoxPosition"), ("Scale", "BoxSize")]
+        break
+else:
+    raise AssertionError("the panel of floor maps offers no box")
+boxed = simple.FloorMapOfVisibility(LightField=floor.LightField, Resolution=[4, 2], EyeHeight=0.5, UseBox=1)
+assert list(boxed.BoxPosition) == [0, 0, 0] and list(boxed.BoxSize) == [4, 1, 1], (boxed.BoxPosition, boxed.BoxSize)
+assert (scenes.point_array(scenes.fetch(boxed), "Visibility")
+        == scenes.point_array(scenes.fetch(floor), "Visibility")).all()
+aside = simple.FloorMapOfVisibility(LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), UseBox=1,
+                                    BoxPosition=[0, 0, 0], BoxSize=[1, 1, 1])
+assert list(aside.BoxPosition) == [0, 0, 0] and list(aside.BoxSize) == [1, 1, 1], aside.BoxPosition
+beside = simple.FloorMapOfVisibility(LightField=floor.LightField, UseBox=1, BoxPosition=[0, 0, 0], BoxSize=[1, 1, 1])
+assert list(beside.BoxPosition) == [0, 0, 0] and list(beside.BoxSize) == [1, 1, 1], beside.BoxSize
+boxed.BoxPosition, boxed.BoxSize = [1, 0.25, 0.1], [2, 0.5, 0.9]
+boxed.Bounds = [0, 1, 0, 1, 0, 1]
+assert scenes.fetch(boxed).GetBounds() == (1.25, 2.75, 0.375, 0.625, 0.6, 0.6), scenes.fetch(boxed).GetBounds()
+boxed.BoxSize = [2, 0, 0.9]
+with scenes.Messages() as messages:
+    scenes.fetch(boxed)
+assert messages.count("ERROR", "vtkFloorMapOfVisibility") == 1 and "BoxSize: the box is empty" in messages.text
 
 # --- the signs of a light field, to pick from ---------------------------------------------------------
 signs = simple.ExitSign(SignTable=os.path.join(sys.argv[2], "Hall", "signs.csv"))

@@ -11,7 +11,7 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from paraview import simple
-from reader_common import Messages, Smoke, close, equal, link, load_plugin, reader, true
+from reader_common import Devices, Messages, Smoke, Walls, close, equal, link, load_plugin, reader, true
 
 load_plugin(sys.argv[1])
 folder = os.path.join(sys.argv[2], "Room", "fds")
@@ -161,5 +161,57 @@ with tempfile.TemporaryDirectory() as temporary:
     equal((said.count("ERROR"), said.count("Warning")), (0, 1), "messages of a strange change")
     true("room.smv, line %d: a change names obstruction 999 of mesh 'coarse'" % line in said.text, "its line")
     equal(Smoke(changed, 16.0).meshes[1].solid.sum(), 0, "the screen still goes")
+
+# --- a table of devices that is being written --------------------------------------------------------------
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, ("room.smv",) + SMOKE + HEAT)
+    with open(os.path.join(folder, "room_devc.csv"), "rb") as file:
+        table = file.read()
+    rows = table.split(b"\n")
+    for size, warnings in ((len(b"\n".join(rows[:9])) + 1, 0), (len(b"\n".join(rows[:9])) + 20, 1)):
+        with open(os.path.join(temporary, "room_devc.csv"), "wb") as file:
+            file.write(table[:size])
+        going = reader(os.path.join(temporary, "room.smv"))
+        said = messages_of(lambda: simple.OutputPort(going, 2).UpdatePipeline(), temporary)
+        equal(said.count("Warning"), warnings, "warnings of a table of %d bytes" % size)
+        equal("room_devc.csv: line 10 of the device table is cut short" in said.text, warnings == 1, "its line")
+        equal(len(Devices(going).column("Time")), 7, "rows before it")
+
+# --- labels that would do something to a terminal, or are no text --------------------------------------------
+def told(data, name):
+    """The values of a text array of field or cell data."""
+    array = data.GetAbstractArray(name)
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    link(folder, temporary, SMOKE[:1] + HEAT + ("room_1_9.sf", "room_2_9.sf"))
+    with open(index, "rb") as file:
+        bad = file.read()
+    with open(os.path.join(folder, "room_devc.csv"), "rb") as file:
+        table = file.read()
+    for good, hostile in ((b"coarse", b"c\x1b[2Jo"), (b" WALL\n", b" W\xfcnde\n"), (b" TEMPERATURE\n", b" T\x9b31m\n")):
+        true(good in bad, "the index has %s" % good)
+        bad = bad.replace(good, hostile)
+    with open(os.path.join(temporary, "room.smv"), "wb") as file:
+        file.write(bad.replace(b" K1 %", b" K\xb9 %"))
+    with open(os.path.join(temporary, "room_devc.csv"), "wb") as file:
+        file.write(table.replace(b",K1,", b",K\xb9,", 1))
+    strange = reader(os.path.join(temporary, "room.smv"))
+    said = messages_of(lambda: strange.UpdatePipeline(20.0), temporary)
+    true("'c\\x1B[2Jo'" in said.text and "\x1b" not in said.text, "the mesh's name is escaped")
+    link(folder, temporary, SMOKE[1:])
+    strange = reader(os.path.join(temporary, "room.smv"))
+    smoke = Smoke(strange, 20.0)
+    equal(smoke.meshes[1].name, "c\\x1B[2Jo", "a mesh")
+    true("'c\\x1B[2Jo'" in smoke.field("ExtinctionSource"), "sources of meshes")
+    true("W\\xFCnde" in Walls(strange, 20.0).surface, "a surface in Latin-1")
+    columns = Devices(strange)
+    equal(columns.names()[1], "K\\xB9", "a device in Latin-1")
+    true(not math.isnan(columns.position("K\\xB9")[0]), "it is where the index has it")
+    simple.OutputPort(strange, 3).UpdatePipeline(20.0)
+    planes = strange.GetClientSideObject().GetOutputDataObject(3)
+    names = [planes.GetMetaData(i).Get(planes.NAME()) for i in range(planes.GetNumberOfPartitionedDataSets())]
+    true(any(name.startswith("T\\x9B31m fine") for name in names), "a quantity of slices")
 
 print("reader_damage: all as expected")

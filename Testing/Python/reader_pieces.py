@@ -52,11 +52,13 @@ def report(data, pieces, what):
     fields = data.GetFieldData()
     told = fields.GetAbstractArray("WorkReportWhat")
     count = vtk_to_numpy(fields.GetArray("WorkReportCount"))
-    rows = ["%s of process %d" % (unit, r) for r in range(pieces) for unit in ("seconds", "bytes")]
-    equal([told.GetValue(i) for i in range(told.GetNumberOfValues())], rows, what + ": rows of the report")
-    equal(fields.GetAbstractArray("WorkReportWhy").GetNumberOfValues(), len(rows), what + ": reasons")
-    true(((count[0::2] > 0.0) & (count[0::2] < 60.0)).all(), "%s: seconds %s" % (what, count[0::2]))
-    return count[1::2]
+    rows = {told.GetValue(i): count[i] for i in range(told.GetNumberOfValues())}
+    names = ["%s of process %d" % (unit, r) for unit in ("seconds", "bytes") for r in range(pieces)]
+    equal(sorted(rows), sorted(names), what + ": rows of the report")
+    equal(fields.GetAbstractArray("WorkReportWhy").GetNumberOfValues(), len(names), what + ": reasons")
+    seconds, read = np.array([rows[name] for name in names]).reshape(2, pieces)
+    true(((seconds > 0.0) & (seconds < 60.0)).all(), "%s: seconds %s" % (what, seconds))
+    return read
 
 
 def stored_bytes(data, pieces):

@@ -395,6 +395,9 @@ TEST(CadMesh, MissingMaterialFileIsSaid)
   const Folder folder("cad-mtl");
   const CadModel model = Read(folder.Write("kiosk.obj", Bytes(Samples + "kiosk.obj")));
   EXPECT_THAT(model.Warnings, testing::ElementsAre(testing::HasSubstr("'kiosk.mtl'")));
+  // Only what the model names is missing, not what is looked for in its place.
+  const CadModel other = Read(folder.Write("other.obj", Bytes(Samples + "kiosk.obj")));
+  EXPECT_THAT(other.Warnings, testing::ElementsAre(testing::HasSubstr("'kiosk.mtl'")));
   for (const CadMaterial& material : model.Materials)
   {
     EXPECT_FALSE(material.Reflectance.has_value()) << material.Name;

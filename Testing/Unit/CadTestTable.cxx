@@ -126,6 +126,7 @@ TEST(CadTableErrors, OfCsvNameTheLine)
   EXPECT_THAT(csv("name,sign\nA,1.5\n"), HasSubstr("whole number"));
   EXPECT_THAT(csv("name,sign\nA,-2\n"), HasSubstr("whole number"));
   EXPECT_THAT(csv("name,colour\nA,1\n"), AllOf(HasSubstr("line 1"), HasSubstr("'colour'")));
+  EXPECT_THAT(csv("name;drop\nA;yes\n"), HasSubstr("separated by semicolons"));
   EXPECT_THAT(csv("drop\nyes\n"), HasSubstr("column name is missing"));
   EXPECT_THAT(csv("name,drop\n,yes\n"), AllOf(HasSubstr("line 2"), HasSubstr("name is missing")));
   EXPECT_THAT(csv("name,reflectance\nA,0,5\n"), HasSubstr("more fields"));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sys/stat.h>
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -189,6 +190,57 @@ TEST(SmvFile, NamesWhatIsWrong)
   test::Index surface;
   surface.Mesh("m", {1, 1, 1}, {0, 0, 0}, {1, 1, 1}).Obstruction({0, 1, 0, 1, 0, 1}, 17);
   EXPECT_THAT(with(surface), HasSubstr("surface number 17 of 6"));
+}
+
+TEST(SmvFile, AnEndlessFileIsRefusedUnread)
+{
+  test::Folder folder("endless");
+  const std::string path = folder.Write("a.smv", "CHID\n a\n");
+  std::error_code full;
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 37, full);
+  if (full)
+  {
+    GTEST_SKIP() << "no files with holes here";
+  }
+  try
+  {
+    SmvFile index(path);
+    FAIL() << "it was read";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("137438953472 bytes, more than the index of any run"));
+  }
+}
+
+TEST(SmvFile, PipesAreNotWaitedFor)
+{
+  test::Folder folder("pipe");
+  ASSERT_EQ(::mkfifo(folder.Path("a.smv").c_str(), 0600), 0);
+  EXPECT_THROW(SmvFile(folder.Path("a.smv")), Error);
+}
+
+TEST(SmvFile, NamesMayHoldTheMarksBetweenFields)
+{
+  test::Folder folder("marks");
+  const std::string text = OneMesh().Bytes();
+  const SmvFile index(folder.Write("a.smv",
+    text + "SLCC     1 # STRUCTURED % door & hall ! 3 &     0    4    0    3    0    2 !      1" +
+      "      1      0\n a.sf\n SOOT DENSITY\n rho\n kg/m3\n" +
+      "DEVICE\n door 50% open % TEMPERATURE\n 0.5 1.5 2.0 0 0 0 0 0\n"));
+  EXPECT_EQ(index.Slices.back().Range, (IndexRange{0, 4, 0, 3, 0, 2}));
+  EXPECT_EQ(index.Devices.back().Name, "door 50% open");
+  EXPECT_EQ(index.Devices.back().Quantity, "TEMPERATURE");
+}
+
+TEST(SmvFile, LabelsAreMadePrintable)
+{
+  test::Folder folder("labels");
+  test::Index text;
+  text.Mesh("m\x1B[31m", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  const SmvFile index(folder.Write("a.smv", text.Bytes() + "CHID\n r\xFCn\n"));
+  EXPECT_EQ(index.Chid, "r\\xFCn");
+  EXPECT_EQ(index.Meshes.at(0).Name, "m\\x1B[31m");
 }
 
 TEST(SmvFile, ADevicesPlaceMayBeTooWideForItsField)

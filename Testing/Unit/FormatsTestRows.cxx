@@ -17,7 +17,7 @@ namespace
 // A layer of nodes, and another above, for rows of some number of cells.
 struct Nodes
 {
-  explicit Nodes(std::size_t cells, std::size_t rows = 3) : Values(2 * (cells + 1) * (rows + 1) + 1)
+  explicit Nodes(std::size_t cells, std::size_t rows = 6) : Values(2 * (cells + 1) * (rows + 1) + 1)
   {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> uniform(0.0F, 3.0F);
@@ -77,14 +77,17 @@ TEST(RowLoops, WhatIsNoExtinctionIsFoundWhereverItIs)
     {
       Nodes nodes(cells);
       std::vector<float> target(cells * nodes.Rows.Rows);
-      for (std::size_t i = 0; i < cells; ++i)
+      for (std::size_t place = 0; place < cells * nodes.Rows.Rows; ++place)
       {
-        float* const place = nodes.Values.data() + 1 + nodes.Rows.Stride + i;
-        const float before = std::exchange(*place, 1e3F * bad);
-        EXPECT_FALSE(CopyExtinction(nodes.Rows, target.data(), cells)) << bad << " at " << i;
-        EXPECT_FALSE(CopyExtinctionOfNodes(nodes.Rows, target.data(), cells)) << bad << " at " << i;
-        EXPECT_FALSE(AddExtinction({place - i, cells}, 0.5F, target.data())) << bad << " at " << i;
-        *place = before;
+        const std::size_t i = place % cells;
+        const std::size_t j = place / cells;
+        float* const at = nodes.Values.data() + 1 + j * nodes.Rows.Stride + i;
+        const float before = std::exchange(*at, 1e3F * bad);
+        EXPECT_FALSE(CopyExtinction(nodes.Rows, target.data(), cells)) << bad << " at " << place;
+        EXPECT_FALSE(CopyExtinctionOfNodes(nodes.Rows, target.data(), cells))
+          << bad << " at " << place;
+        EXPECT_FALSE(AddExtinction({at - i, cells}, 0.5F, target.data())) << bad << " at " << place;
+        *at = before;
       }
       EXPECT_TRUE(CopyExtinction(nodes.Rows, target.data(), cells));
     }

@@ -1,4 +1,6 @@
 // Numbers and words of the index's lines, with and without blanks between them.
+#include "Errors.h"
+#include "PrintableText.h"
 #include "TextFields.h"
 
 #include <gmock/gmock.h>
@@ -7,6 +9,47 @@ using testing::ElementsAre;
 
 namespace smokevis
 {
+
+TEST(Printable, KeepsWhatCanBeShown)
+{
+  for (const char* const text :
+    {"", "SOOT DENSITY", "T\xC3\xBCr \xE2\x82\xAC \xF0\x9F\x94\xA5", "C:\\runs\tx\ny"})
+  {
+    EXPECT_EQ(Printable(text), text);
+  }
+}
+
+TEST(Printable, EscapesEveryOtherByte)
+{
+  // Control characters of both sets, and one that turns the direction of writing.
+  EXPECT_EQ(Printable("\x1B[2Jred\x07\r\x7F"), "\\x1B[2Jred\\x07\\x0D\\x7F");
+  EXPECT_EQ(Printable("\xC2\x9B"
+                      "2J"),
+    "\\xC2\\x9B"
+    "2J");
+  EXPECT_EQ(Printable("\xE2\x80\xAE"
+                      "gnp"),
+    "\\xE2\\x80\\xAE"
+    "gnp");
+  // Latin-1, a character cut short, longer forms than need be, surrogates, and beyond the last.
+  EXPECT_EQ(Printable("T\xFCr"), "T\\xFCr");
+  EXPECT_EQ(Printable("\xE2\x82"), "\\xE2\\x82");
+  EXPECT_EQ(Printable("\xE2"
+                      "a"),
+    "\\xE2"
+    "a");
+  EXPECT_EQ(Printable("\xC1\xA1"), "\\xC1\\xA1");
+  EXPECT_EQ(Printable("\xE0\x9F\xBF"), "\\xE0\\x9F\\xBF");
+  EXPECT_EQ(Printable("\xED\xA0\x80"), "\\xED\\xA0\\x80");
+  EXPECT_EQ(Printable("\xF4\x90\x80\x80"), "\\xF4\\x90\\x80\\x80");
+  EXPECT_EQ(Printable("\xFF\xFE"), "\\xFF\\xFE");
+  EXPECT_EQ(Printable(std::string_view("\0a", 2)), "\\x00a");
+}
+
+TEST(Printable, ErrorsQuoteNothingElse)
+{
+  EXPECT_STREQ(Error("a\x1B", "label 'T\xFCr'", "Do").what(), "a\\x1B: label 'T\\xFCr'. Do.");
+}
 
 TEST(SplitNumbers, ReadsFieldsWithBlanks)
 {

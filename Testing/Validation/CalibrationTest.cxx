@@ -14,13 +14,13 @@ namespace
 
 using namespace smokevis;
 
-/// A small room that takes milliseconds: the sign of three bars in white, scattering smoke.
-SceneDescription SmallRoom()
+/// A small room that takes milliseconds: the sign of three bars in scattering smoke.
+SceneDescription SmallRoom(double albedo, double reflectance)
 {
   SceneDescription scene;
-  scene.Albedo = 0.9;
+  scene.Albedo = albedo;
   scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {8, 4, 4}, 1.0)};
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {2, 1, 1}, 0.5, 0.4);
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {2, 1, 1}, 0.5, reflectance);
   scene.Emitters = scenes::Barcode({2, 0.5, 0.5}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.4, 3, 1.0, 0);
   scene.Emitters.push_back(scenes::Plate({0.6, 0.5, 0.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1.0));
   return scene;
@@ -53,9 +53,10 @@ public:
   }
 
   /// Sixteen batches give Student's t with 15 degrees of freedom: 66.7, 93.6 and 99.1 % lie within
-  /// 1, 2 and 3. Three standard deviations of the count are allowed, and a discretisation of
-  /// `bound` in the mean.
-  void Judge(double bound) const
+  /// 1, 2 and 3. Three standard deviations of the count are allowed. The mean may be off by its
+  /// own noise and, since lines are counted before the light has settled for good, by a quarter of
+  /// what a single error bar says: that changes the shares by less than three hundredths.
+  void Judge() const
   {
     constexpr double Expected[3] = {0.6669, 0.9361, 0.9910};
     for (int limit = 0; limit < 3; ++limit)
@@ -68,12 +69,13 @@ public:
     const double mean = this->Sum_ / this->Count_;
     const double spread =
       std::sqrt(std::max(0.0, this->Square_ / this->Count_ - mean * mean) / (this->Count_ - 1.0));
-    report::Relative(
-      this->Name_ + " mean", this->Truth_, mean, bound, std::hypot(spread, this->TruthError_));
+    const double reported = std::sqrt(this->Variance_ / this->Count_);
+    report::Relative(this->Name_ + " mean", this->Truth_, mean, 0.25 * reported / this->Truth_,
+      std::hypot(spread, this->TruthError_));
     // The reported variance against the one between seeds, whose relative standard error is
     // sqrt(2 / n): four of them, for errors' tails are longer than a normal law's.
-    const double ratio = std::sqrt(this->Variance_ / this->Count_) /
-                         std::max(1e-300, spread * std::sqrt(static_cast<double>(this->Count_)));
+    const double ratio =
+      reported / std::max(1e-300, spread * std::sqrt(static_cast<double>(this->Count_)));
     report::Absolute(this->Name_ + " reported over true error", 1.0, ratio,
       4.0 * std::sqrt(0.5 / this->Count_) + 0.05);
   }
@@ -89,9 +91,10 @@ private:
   double Variance_ = 0.0;
 };
 
-// The truth is the mean over the seeds of solutions with a tenth of the tolerance: what error bars
+// The truth is the mean over other seeds of solutions with a fraction of the noise: what error bars
 // are to tell is the noise, not the cells' size, which the other tests look at.
-void CheckSeeds(int seeds, double tolerance)
+void CheckSeeds(
+  const SceneDescription& room, int seeds, double tolerance, double referenceTolerance = 0.0005)
 {
   const std::vector<std::int64_t> cell = {2 + 8 * (1 + 4 * 2)};
   const Ray ray{Eye, glm::normalize(Vec3(1.0, 0.25, -0.2))};
@@ -109,10 +112,10 @@ void CheckSeeds(int seeds, double tolerance)
       return {mean, std::sqrt(std::max(0.0, this->Square / count - mean * mean) / (count - 1.0))};
     }
   } fluence, luminance, contrast;
-  const int references = std::max(4, seeds / 10);
+  const int references = std::max(8, seeds / 10);
   for (int i = 0; i < references; ++i)
   {
-    const Solved solved(SmallRoom(), 0.1 * tolerance, 5000 + static_cast<std::uint64_t>(i));
+    const Solved solved(room, referenceTolerance, 5000 + static_cast<std::uint64_t>(i));
     fluence.Add(solved.Fluence(cell).Mean);
     luminance.Add(solved.Luminance(ray).Mean);
     contrast.Add(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}).Contrast);
@@ -127,7 +130,7 @@ void CheckSeeds(int seeds, double tolerance)
   Calibration ofContrast = make("contrast", contrast);
   for (int seed = 1; seed <= seeds; ++seed)
   {
-    const Solved solved(SmallRoom(), tolerance, static_cast<std::uint64_t>(seed));
+    const Solved solved(room, tolerance, static_cast<std::uint64_t>(seed));
     ofFluence.Add(solved.Fluence(cell));
     ofLuminance.Add(solved.Luminance(ray));
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, Eye, Observer{0.0});
@@ -135,21 +138,28 @@ void CheckSeeds(int seeds, double tolerance)
   }
   report::Head(
     "Error bars over " + std::to_string(seeds) + " seeds, tolerance " + std::to_string(tolerance));
-  ofFluence.Judge(0.1 * tolerance);
-  ofLuminance.Judge(0.1 * tolerance);
+  ofFluence.Judge();
+  ofLuminance.Judge();
   // Noise that passed for contrast would show in this mean.
-  ofContrast.Judge(0.1 * tolerance);
+  ofContrast.Judge();
 }
 
 TEST(Calibration, SixtySeeds)
 {
-  CheckSeeds(60, 0.05);
+  CheckSeeds(SmallRoom(0.9, 0.4), 60, 0.05, 0.002);
 }
 
 TEST(Calibration, TwoHundredSeedsLong)
 {
-  CheckSeeds(200, 0.05);
-  CheckSeeds(200, 0.01);
+  CheckSeeds(SmallRoom(0.9, 0.4), 200, 0.05);
+  CheckSeeds(SmallRoom(0.9, 0.4), 200, 0.002);
+}
+
+// Light that is hardly lost takes long to settle; in soot most of it is direct.
+TEST(Calibration, WhiteRoomAndSootLong)
+{
+  CheckSeeds(SmallRoom(0.99, 0.9), 200, 0.05);
+  CheckSeeds(SmallRoom(0.3, 0.1), 200, 0.05);
 }
 
 } // namespace

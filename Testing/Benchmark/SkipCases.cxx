@@ -1,0 +1,205 @@
+// What each thing that a scene does not need saves by being left out, and what that changes.
+#include "BenchmarkCases.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis::benchmark
+{
+
+namespace
+{
+
+constexpr double SkipTolerance = 0.1;
+/// With and without by turns, so often; the shortest of each counts.
+constexpr int Turns = 3;
+
+/// Values that are held against each other.
+using Values = std::vector<double>;
+
+/// Largest difference over the reference value, of values that are at least a millionth of the
+/// largest.
+double LargestDifference(const Values& values, const Values& reference)
+{
+  double largest = 0.0;
+  for (const double value : reference)
+  {
+    largest = std::max(largest, value);
+  }
+  double worst = 0.0;
+  for (std::size_t i = 0; i < reference.size(); ++i)
+  {
+    if (reference[i] > 1e-6 * largest)
+    {
+      worst = std::max(worst, std::abs(values[i] - reference[i]) / reference[i]);
+    }
+  }
+  return worst;
+}
+
+/// Runs a case with and without a skip by turns and writes its row. Of random results only their
+/// sum is compared.
+void Compare(ResultTable& table, const std::string& skip, const std::string& scene,
+  const std::function<Values(bool)>& run)
+{
+  std::array<double, 2> seconds{};
+  std::array<Values, 2> values;
+  for (int turn = 0; turn < Turns; ++turn)
+  {
+    for (const bool skips : {true, false})
+    {
+      const StopWatch watch;
+      values[skips ? 0 : 1] = run(skips);
+      double& shortest = seconds[skips ? 0 : 1];
+      shortest = turn == 0 ? watch.Processors() : std::min(shortest, watch.Processors());
+    }
+  }
+  table.Row({skip, scene, Number(seconds[0]), Number(seconds[1]), Number(seconds[1] / seconds[0]),
+    Number(LargestDifference(values[0], values[1]))});
+}
+
+LightField SolveWith(const Scene& scene, bool skips)
+{
+  LightFieldOptions options;
+  options.Tolerance = SkipTolerance;
+  options.Skips = skips;
+  Progress progress;
+  return SolveLightField(scene, options, progress);
+}
+
+/// Direct fluence of cells that hold smoke, which tells what was left out without noise.
+Values Direct(const Scene& scene, const LightField& field)
+{
+  Values values;
+  for (std::size_t i = 0; i < field.DirectFluence.size(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i % field.Cells);
+    values.push_back(scene.Smoke().Extinction(cell) > 0.0F ? field.DirectFluence[i] : 0.0);
+  }
+  return values;
+}
+
+/// Sum of the multiply scattered fluence of a band.
+Values Multiple(const LightField& field, int band)
+{
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < field.Cells; ++cell)
+  {
+    sum += Mean(field.MultipleFluence[field.CellIndex(band, static_cast<std::int64_t>(cell))]);
+  }
+  return {sum};
+}
+
+/// A corridor of 60 x 4 x 4 m with lamps along its ceiling and smoke that is thinnest on the floor,
+/// where it has half of the given extinction, and thickest under the ceiling.
+SceneDescription Corridor(double extinction, int lamps, double albedo, double reflectance)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 upper(60, 4, 4);
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 8, 8}, extinction)};
+  std::vector<float>& values = scene.Grids[0].Extinction;
+  for (std::size_t cell = 0; cell < values.size(); ++cell)
+  {
+    const std::size_t layer = cell / (120 * 8);
+    values[cell] *= static_cast<float>(0.5 + static_cast<double>(layer) / 7.0);
+  }
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, reflectance);
+  for (int lamp = 0; lamp < lamps; ++lamp)
+  {
+    const Vec3 centre(60.0 * (lamp + 0.5) / lamps, 2.0, 3.99);
+    scene.Emitters.push_back(scenes::Plate(centre, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.0));
+  }
+  return scene;
+}
+
+void SkipLight(ResultTable& table)
+{
+  const auto field = [&table](const std::string& skip, const std::string& name,
+                       const SceneDescription& description, auto result)
+  {
+    const Scene scene(description);
+    Compare(table, skip, name, [&](bool skips) { return result(scene, SolveWith(scene, skips)); });
+  };
+  // There is no switch for it: the same with an albedo that makes no difference but has to be
+  // followed.
+  const Scene black(Corridor(0.3, 4, 0.0, 0.0));
+  const Scene nearlyBlack(Corridor(0.3, 4, 1e-9, 0.0));
+  Compare(table, "no scattering", "corridor of 60 m with black walls and soot of albedo 0",
+    [&](bool skips)
+    {
+      const Scene& scene = skips ? black : nearlyBlack;
+      return Direct(scene, SolveWith(scene, true));
+    });
+  field("ways told", "corridor of 60 m with one lamp", Corridor(0.1, 1, 0.0, 0.0), Direct);
+  SceneDescription lamps = Corridor(1.0, 15, 0.0, 0.0);
+  field("ways told and negligible lights", "corridor of 60 m with 15 lamps", lamps, Direct);
+  std::fill(lamps.Grids[0].Extinction.begin(), lamps.Grids[0].Extinction.end(), 1.0F);
+  field("ways told and negligible lights", "the same with even smoke", lamps, Direct);
+  SceneDescription grey = Corridor(0.3, 4, 0.5, 0.5);
+  grey.Bands = 3;
+  for (EmitterCell& cell : grey.Emitters)
+  {
+    cell.Luminance.fill(1000.0);
+  }
+  // Bands that are solved for themselves differ by their noise.
+  field("equal bands", "corridor of 60 m with grey walls and three bands", grey,
+    [](const Scene&, const LightField& solved) { return Multiple(solved, 2); });
+}
+
+void SkipSteps(ResultTable& table)
+{
+  SceneDescription description = Corridor(0.3, 4, 0.5, 0.5);
+  description.Surfaces = {};
+  scenes::AddRoom(description.Surfaces, Vec3(0.0), {60, 4, 4}, 0.5, 0.5);
+  const Scene scene(description);
+  const LightField solved = SolveWith(scene, true);
+  const SceneDescription same = description;
+  Compare(table, "unchanged time step", "corridor of 60 m with 4000 wall patches",
+    [&](bool skips) {
+      return Direct(scene, skips && same == description ? solved : SolveWith(Scene(same), true));
+    });
+  description.Surfaces = {};
+  scenes::AddRoom(description.Surfaces, Vec3(0.0), {60, 4, 4}, 0.1, 0.5);
+  const Scene fine(description);
+  Compare(table, "kept search structures", "corridor of 60 m with 200 000 triangles",
+    [&](bool skips)
+    {
+      const Scene next(description, skips ? &fine : nullptr);
+      return Values{next.PatchArea(0), next.ExposedArea(0, 0), next.Shapes().Tolerance()};
+    });
+}
+
+void SkipSigns(ResultTable& table, const Settings& settings)
+{
+  const Solution hall = Solve(Hall(settings.Time), SkipTolerance, 1, settings.Threads);
+  FloorMapOptions places = HallPlaces(12, 8, settings.Threads);
+  Progress progress;
+  Compare(table, "signs below the cut-off of 0.2", "hall at 600 s: map of 12 x 8 places",
+    [&](bool skips)
+    {
+      places.CutOff = skips ? places.ContrastThreshold : 0.0;
+      const FloorMap map = ComputeFloorMap(*hall.TheView, places, progress);
+      Values values;
+      for (const float visibility : map.Visibility)
+      {
+        // Places below the cut-off need not keep their value, but must stay below.
+        values.push_back(std::max<double>(visibility, places.ContrastThreshold));
+      }
+      return values;
+    });
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+void RunSkips(const Settings& settings)
+{
+  ResultTable table(settings.Out + "/skips.csv",
+    {"skip", "scene", "with_s", "without_s", "ratio", "largest_relative_difference"});
+  SkipLight(table);
+  SkipSteps(table);
+  SkipSigns(table, settings);
+}
+
+} // namespace smokevis::benchmark
