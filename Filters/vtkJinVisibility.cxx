@@ -264,8 +264,13 @@ int vtkJinVisibility::RequestData(
   const int done = this->Implementation->Kept.Produce(this, outputVector,
     [&]
     {
-      this->Compute(vtkDataObject::GetData(inputVector[0]), vtkImageData::GetData(inputVector[1]),
-        vtkDataObject::GetData(inputVector[2]), vtkImageData::GetData(outputVector));
+      smokevis::Ranks().Together(this,
+        [&]
+        {
+          this->Compute(vtkDataObject::GetData(inputVector[0]),
+            vtkImageData::GetData(inputVector[1]), vtkDataObject::GetData(inputVector[2]),
+            vtkImageData::GetData(outputVector));
+        });
     });
   smokevis::LeaveToFirstPiece(outputVector);
   return done;

@@ -3,9 +3,9 @@
 #include "EyeProperties.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
-#include "PipelineProgress.h"
 #include "PointArrays.h"
 #include "PropertyChecks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "RouteInput.h"
 #include "RouteWalk.h"
@@ -256,13 +256,17 @@ void vtkRouteVisibility::Compute(
     }
     current = 1 - current;
     before = after;
-    after = {time, &inputs[current].Get(vtkDataObject::GetData(lightField))};
+    smokevis::Ranks().Together(this,
+      [&] {
+        after = {time, &inputs[current].Get(vtkDataObject::GetData(lightField))};
+      });
     used.push_back(time);
   };
   double done = 0.0;
   const auto advance = [&](const smokevis::RouteFrame& from, bool last)
   {
-    smokevis::RunWithProgress(this, done, ShareOf(used.size(), last),
+    // All processes of a parallel run walk on to the next step, or none does.
+    smokevis::RankTeam(this).Run(done, ShareOf(used.size(), last),
       [&](smokevis::Progress& progress) { walk.Advance(from, after, last, progress); });
     done = ShareOf(used.size(), last);
   };

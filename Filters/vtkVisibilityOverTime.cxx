@@ -173,13 +173,18 @@ void vtkVisibilityOverTime::Compute(vtkInformationVector* input, vtkImageData* o
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     smokevis::UpdateToTime(input, steps[i]);
-    history.Add(Frame(map, steps[i]));
-    signHistory.Add(SignFrame(map, steps[i]));
-    this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
-    if (this->CheckAbort())
-    {
-      throw Error("visibility over time", "the work was stopped");
-    }
+    // All processes of a parallel run ask for the next step, or none does.
+    smokevis::Ranks().Together(this,
+      [&]
+      {
+        history.Add(Frame(map, steps[i]));
+        signHistory.Add(SignFrame(map, steps[i]));
+        this->UpdateProgress(static_cast<double>(i + 1) / static_cast<double>(steps.size()));
+        if (this->CheckAbort())
+        {
+          throw Error("visibility over time", "the work was stopped");
+        }
+      });
   }
 
   const smokevis::VisibilityHistory::Summary summary = history.Finish();

@@ -62,9 +62,13 @@ void SmvParser::Run()
 void SmvParser::ReadLines()
 {
   std::error_code problem;
-  const bool regular = std::filesystem::is_regular_file(index_.Path, problem);
-  std::ifstream stream(index_.Path, std::ios::binary);
-  if (!regular || !stream)
+  std::ifstream stream;
+  // Opening a pipe would wait for whoever writes into it.
+  if (std::filesystem::is_regular_file(index_.Path, problem))
+  {
+    stream.open(index_.Path, std::ios::binary);
+  }
+  if (!stream.is_open())
   {
     throw Error(index_.Path, "the FDS index cannot be opened", "Check the name and permissions");
   }

@@ -23,9 +23,11 @@ fuzz()
       "-artifact_prefix=crash/$name/" "found/$name" "$corpus/$name" >"$name.log" 2>&1 || status=$?
     runs=$((runs + $(sed -n 's/^stat::number_of_executed_units: *//p' "$name.log" | tail -1)))
     ((status != 0)) || break
-    # A process that a busy machine let wait did not hang: an input is too slow when it is so again.
+    # A process that a busy machine let wait did not hang: an input is too slow when it takes the
+    # processor for more than a second, and another is for the program's own beginning.
     input=$(find "crash/$name" -name 'timeout-*' -print -quit)
-    if [[ -z $input ]] || ! "./Fuzz$name" "${limits[@]}" "$input" >/dev/null 2>&1; then
+    if [[ -z $input ]] ||
+      ! (ulimit -t 2 && "./Fuzz$name" "${limits[@]}" -timeout=600 "$input") >/dev/null 2>&1; then
       tail -n 40 "$name.log"
       echo "Fuzz$name: $runs executions, and a find in $PWD/crash/$name"
       return 1

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sys/stat.h>
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -210,6 +211,13 @@ TEST(SmvFile, AnEndlessFileIsRefusedUnread)
   {
     EXPECT_THAT(error.what(), HasSubstr("137438953472 bytes, more than the index of any run"));
   }
+}
+
+TEST(SmvFile, PipesAreNotWaitedFor)
+{
+  test::Folder folder("pipe");
+  ASSERT_EQ(::mkfifo(folder.Path("a.smv").c_str(), 0600), 0);
+  EXPECT_THROW(SmvFile(folder.Path("a.smv")), Error);
 }
 
 TEST(SmvFile, NamesMayHoldTheMarksBetweenFields)
