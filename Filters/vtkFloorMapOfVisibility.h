@@ -83,7 +83,7 @@ public:
   /**
    * Whether the area is a box given by its lower corner and its size [m], as ParaView's panel lets
    * one draw it, and Bounds is not used. The box stands on the floor and ends at the ceiling; its
-   * sizes are above 0. Default: off, position (0, 0, 0), size (1, 1, 1).
+   * sizes are above 0. Default: off, position (-1, -1, -1), size (2, 2, 2).
    */
   vtkSetMacro(UseBox, bool);
   vtkGetMacro(UseBox, bool);
@@ -200,8 +200,8 @@ private:
   int Resolution[2] = {12, 8};
   double Bounds[6] = {1.0, -1.0, 1.0, -1.0, 1.0, -1.0};
   bool UseBox = false;
-  double BoxPosition[3] = {0.0, 0.0, 0.0};
-  double BoxSize[3] = {1.0, 1.0, 1.0};
+  double BoxPosition[3] = {-1.0, -1.0, -1.0};
+  double BoxSize[3] = {2.0, 2.0, 2.0};
   double ContrastThreshold = 0.2;
   double ThresholdSpread = 0.04;
   double DarkLuminance = 0.1;

@@ -18,9 +18,11 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/// Shapes that touch lie within this share of the scene's size: well above the rounding of the
-/// single precision that Embree works in, well below anything that matters to light.
+/// Shapes that touch lie within this share of the size of the part of the scene that matters: well
+/// below anything that matters to light; and at least within that share of the whole: well above
+/// the rounding of the single precision that Embree works in.
 constexpr double RelativeTolerance = 1e-5;
+constexpr double RoundingShare = 1e-6;
 
 struct DeviceRelease
 {
@@ -317,7 +319,8 @@ Geometry::Geometry() : Implementation_(std::make_unique<Implementation>())
 {
 }
 
-Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize)
+Geometry::Geometry(
+  const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize, double coreSize)
     : Geometry()
 {
   Implementation& self = *this->Implementation_;
@@ -336,7 +339,9 @@ Geometry::Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, dou
     return;
   }
   self.Centre = 0.5 * (lower + upper);
-  self.Tolerance = RelativeTolerance * std::max(sceneSize, glm::length(upper - lower));
+  const double size = std::max(sceneSize, glm::length(upper - lower));
+  self.Tolerance = std::max(
+    RelativeTolerance * (coreSize > 0.0 ? std::min(coreSize, size) : size), RoundingShare * size);
   self.Device.reset(rtcNewDevice("set_affinity=0"));
   if (!self.Device)
   {

@@ -58,7 +58,9 @@ public:
   /// Builds the search structures. Exact duplicates and triangles without area are left out.
   /// @param sceneSize diagonal of all that rays come from, smoke included [m]; at least that of the
   /// shapes is taken
-  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0);
+  /// @param coreSize diagonal of the part that matters, such as the smoke [m]; 0: all does
+  Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0,
+    double coreSize = 0.0);
   ~Geometry();
   Geometry(Geometry&&) noexcept;
   Geometry& operator=(Geometry&&) noexcept;

@@ -22,42 +22,100 @@ constexpr double MostLinesForPatches = 20000.0;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
 
-/// A line through a box, of the uniform measure of lines: it enters anywhere on the box's surface
-/// with a cosine-distributed direction.
-void DrawLine(const Vec3& lower, const Vec3& upper, const std::array<double, 4>& random,
-  Vec3& origin, Vec3& direction, double& length)
+/// How many times the smoke's box the scene's must be for lines through the smoke's alone.
+constexpr double InnerRatio = 3.0;
+
+/// The box around the scene, somewhat larger: surfaces on its border lie inside.
+Box SceneBox(const Scene& scene)
 {
-  const Vec3 size = upper - lower;
-  const Vec3 faces(size.y * size.z, size.z * size.x, size.x * size.y);
-  // The first number chooses one of six faces and then a place on it.
-  double pick = random[0] * 2.0 * (faces.x + faces.y + faces.z);
-  int axis = 0;
-  while (axis < 2 && pick >= 2.0 * faces[axis])
+  const double margin = 1e-4 * glm::length(scene.Upper() - scene.Lower());
+  return {scene.Lower() - margin, scene.Upper() + margin};
+}
+
+/// How many lines through a box patches need, where surfaces send light on or out.
+/// @param serves which patches count
+double LinesForPatches(
+  const Scene& scene, int band, const Box& box, const std::vector<bool>& serves)
+{
+  double area = 0.0;
+  // The cells of a sign share their indirect light.
+  std::map<int, double> cellsOfSign;
+  for (const EmitterCell& cell : scene.Lights().Cells())
   {
-    pick -= 2.0 * faces[axis];
-    ++axis;
+    cellsOfSign[cell.SignId] += 1.0;
   }
-  const bool high = pick >= faces[axis];
-  const double place = std::clamp((pick - (high ? faces[axis] : 0.0)) / faces[axis], 0.0, 1.0);
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
-  origin[axis] = high ? upper[axis] : lower[axis];
-  origin[u] = lower[u] + place * size[u];
-  origin[v] = lower[v] + random[1] * size[v];
-  const double sine = std::sqrt(random[2]);
-  const double angle = glm::two_pi<double>() * random[3];
-  direction[axis] = (high ? -1.0 : 1.0) * std::sqrt(1.0 - random[2]);
-  direction[u] = sine * std::cos(angle);
-  direction[v] = sine * std::sin(angle);
-  length = std::numeric_limits<double>::infinity();
-  for (int other = 0; other < 3; ++other)
+  double reflecting = 0.0;
+  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
   {
-    if (direction[other] != 0.0)
+    if (serves[patch] && (scene.PatchReflectance(patch)[band] > 0.0 || scene.Sky() > 0.0))
     {
-      const double plane = direction[other] > 0.0 ? upper[other] : lower[other];
-      length = std::min(length, (plane - origin[other]) / direction[other]);
+      area += scene.PatchArea(patch);
+      const int sign = patch < scene.SurfacePatches()
+                         ? -1
+                         : scene.Lights().Cells()[patch - scene.SurfacePatches()].SignId;
+      reflecting += sign < 0 ? 1.0 : 1.0 / cellsOfSign[sign];
     }
   }
+  // Patches that are tiny against the box are not worth a flood of lines.
+  return area > 0.0 ? std::min(CrossingsPerSweep * reflecting * box.Area() / (2.0 * area),
+                        MostLinesForPatches)
+                    : 0.0;
+}
+
+/// Which patches lie in a box.
+std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
+{
+  std::vector<bool> inside(scene.Patches(), true);
+  std::size_t first = 0;
+  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
+  {
+    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+    {
+      for (const auto corner : mesh->Triangles[i])
+      {
+        const std::size_t patch = first + mesh->TriangleCell[i];
+        inside[patch] = inside[patch] && box.Contains(mesh->Points[corner]);
+      }
+    }
+    first += mesh->CellReflectance.size();
+  }
+  return inside;
+}
+
+double SurfaceOf(const Vec3& edges)
+{
+  return 2.0 * (edges.x * edges.y + edges.y * edges.z + edges.z * edges.x);
+}
+
+GlobalLines LinesFor(const Scene& scene, int band)
+{
+  const Medium& smoke = scene.Smoke();
+  double boundary = 0.0;
+  for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
+  {
+    boundary += SurfaceOf(smoke.CellSize(static_cast<std::int64_t>(cell)));
+  }
+  const auto count = [](double lines)
+  { return std::max(FewestLines, static_cast<std::size_t>(std::ceil(lines))); };
+  const Box box = SceneBox(scene);
+  // By Cauchy's formula a line meets a convex body in proportion to its surface.
+  const double linesPerArea =
+    boundary > 0.0 ? CrossingsPerSweep * static_cast<double>(smoke.Cells()) / boundary : 0.0;
+  const double margin = 1e-4 * glm::length(smoke.Upper() - smoke.Lower());
+  const Box inner = {
+    glm::max(box.Lower, smoke.Lower() - margin), glm::min(box.Upper, smoke.Upper() + margin)};
+  if (smoke.Empty() || box.Area() < InnerRatio * inner.Area())
+  {
+    const std::vector<bool> all(scene.Patches(), true);
+    return {
+      box, count(std::max(linesPerArea * box.Area(), LinesForPatches(scene, band, box, all)))};
+  }
+  std::vector<bool> inside = PatchesIn(scene, inner);
+  const double forInside = LinesForPatches(scene, band, inner, inside);
+  inside.flip();
+  GlobalLines lines(box, count(LinesForPatches(scene, band, box, inside)));
+  lines.AddInner(inner, count(std::max(linesPerArea * inner.Area(), forInside)));
+  return lines;
 }
 
 } // namespace
@@ -95,14 +153,13 @@ LineSweep::LineSweep(
     : Scene_(scene), Direct_(direct),
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
-      Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>())))
+      Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
+      Lines_(LinesFor(scene, band))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
   this->Extinction_.resize(cells);
-  double boundary = 0.0;
-  double volume = 0.0;
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
     const Vec3 size = smoke.CellSize(cell);
@@ -110,8 +167,6 @@ LineSweep::LineSweep(
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
-    volume += own;
-    boundary += 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
   }
   if (smoke.Emits())
   {
@@ -122,57 +177,18 @@ LineSweep::LineSweep(
         static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
     }
   }
-  // Surfaces on the border of the scene lie inside the box that lines start from.
-  const double margin = 1e-4 * glm::length(scene.Upper() - scene.Lower());
-  this->Lower_ = scene.Lower() - margin;
-  this->Upper_ = scene.Upper() + margin;
-  // By Cauchy's formula a line meets a convex body in proportion to its surface.
-  const Vec3 size = this->Upper_ - this->Lower_;
-  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  const double crossings = boundary / box;
-  double lines = crossings > 0.0 ? CrossingsPerSweep * cells / crossings : 0.0;
-  double area = 0.0;
-  // The cells of a sign share their indirect light.
-  std::map<int, double> cellsOfSign;
-  for (const EmitterCell& cell : scene.Lights().Cells())
-  {
-    cellsOfSign[cell.SignId] += 1.0;
-  }
-  double reflecting = 0.0;
-  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
-  {
-    if (scene.PatchReflectance(patch)[band] > 0.0 || scene.Sky() > 0.0)
-    {
-      area += scene.PatchArea(patch);
-      const int sign = patch < scene.SurfacePatches()
-                         ? -1
-                         : scene.Lights().Cells()[patch - scene.SurfacePatches()].SignId;
-      reflecting += sign < 0 ? 1.0 : 1.0 / cellsOfSign[sign];
-    }
-  }
-  if (area > 0.0)
-  {
-    // Patches that are tiny against the scene are not worth a flood of lines.
-    const double wanted = CrossingsPerSweep * reflecting * box / (2.0 * area);
-    lines = std::max(lines, std::min(wanted, MostLinesForPatches));
-  }
-  this->Lines_ = std::max(FewestLines, static_cast<std::size_t>(lines));
-  // All directed lines through a convex body measure pi times its surface. Each line drawn serves
-  // in both of its directions.
-  const auto drawn = static_cast<double>(this->Lines_);
-  this->Weight_ = glm::pi<double>() * box / (2.0 * drawn);
   this->CellCrossings_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    const Vec3 edges = smoke.CellSize(cell);
     this->CellCrossings_[cell] = static_cast<float>(
-      drawn * 2.0 * (edges.x * edges.y + edges.y * edges.z + edges.z * edges.x) / box);
+      this->Lines_.Meetings(SurfaceOf(smoke.CellSize(static_cast<std::int64_t>(cell))), true));
   }
+  const std::vector<bool> inside = PatchesIn(scene, this->Lines_.Inner().value_or(SceneBox(scene)));
   this->SideHits_.resize(2 * scene.Patches());
   for (std::size_t side = 0; side < this->SideHits_.size(); ++side)
   {
-    this->SideHits_[side] =
-      static_cast<float>(drawn * 2.0 * scene.ExposedArea(side / 2, side % 2) / box);
+    this->SideHits_[side] = static_cast<float>(
+      this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), inside[side / 2]));
   }
 }
 
@@ -199,9 +215,13 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
-void LineSweep::TraceLine(const BatchState& state, const Vec3& origin, const Vec3& direction,
-  double length, LineTallies& tallies, Buffers& buffers) const
+void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line,
+  LineTallies& tallies, Buffers& buffers) const
 {
+  const Vec3& origin = line.Origin;
+  const Vec3& direction = line.Direction;
+  const double length = line.Length;
+  const auto weight = static_cast<float>(line.Weight);
   const Medium& smoke = this->Scene_.Smoke();
   this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
   const std::size_t crossings = buffers.Crossings.size();
@@ -271,7 +291,8 @@ void LineSweep::TraceLine(const BatchState& state, const Vec3& origin, const Vec
   {
     const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
     tallies.Illuminance[side] +=
-      radiance - static_cast<float>(glm::one_over_pi<double>()) * tallies.ExpectedIlluminance[side];
+      weight * (radiance - static_cast<float>(glm::one_over_pi<double>()) *
+                             tallies.ExpectedIlluminance[side]);
   };
   const auto sky = static_cast<float>(this->Scene_.Sky());
   float radiance = sky;
@@ -289,7 +310,7 @@ void LineSweep::TraceLine(const BatchState& state, const Vec3& origin, const Vec
       radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
     }
   }
-  tallies.Escaped += radiance;
+  tallies.Escaped += weight * radiance;
   radiance = sky;
   for (std::size_t part = crossings + 1; part-- > 0;)
   {
@@ -305,13 +326,14 @@ void LineSweep::TraceLine(const BatchState& state, const Vec3& origin, const Vec
       radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive, direction);
     }
   }
-  tallies.Escaped += radiance;
+  tallies.Escaped += weight * radiance;
   constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const std::int64_t cell = buffers.Cell[i];
     tallies.Fluence[cell] +=
-      buffers.Integral[i] - isotropic * tallies.ExpectedFluence[cell] * buffers.Length[i];
+      weight *
+      (buffers.Integral[i] - isotropic * tallies.ExpectedFluence[cell] * buffers.Length[i]);
   }
 }
 
@@ -348,26 +370,21 @@ void LineSweep::Run(
   tallies.Illuminance.assign(state.Illuminance.size(), 0.0F);
   tallies.Escaped = 0.0;
 
-  const EvenPoints points(key);
+  const GlobalLines::Draw draw(this->Lines_, key);
   Buffers buffers;
-  for (std::size_t line = 0; line < this->Lines_; ++line)
+  for (std::size_t line = 0; line < this->Lines_.Count(); ++line)
   {
     if (line % 256 == 0 && progress.ShouldStop())
     {
       return;
     }
-    Vec3 origin;
-    Vec3 direction;
-    double length = 0.0;
-    DrawLine(this->Lower_, this->Upper_, points.Point(line), origin, direction, length);
-    this->TraceLine(state, origin, direction, length, tallies, buffers);
+    this->TraceLine(state, draw.Get(line), tallies, buffers);
   }
 
-  const auto cellWeight = static_cast<float>(this->Weight_);
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
-    state.Fluence[cell] = tallies.ExpectedFluence[cell] +
-                          cellWeight * this->InverseVolume_[cell] * tallies.Fluence[cell];
+    state.Fluence[cell] =
+      tallies.ExpectedFluence[cell] + this->InverseVolume_[cell] * tallies.Fluence[cell];
     state.FluenceSum[cell] += state.Fluence[cell];
   }
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
@@ -376,12 +393,11 @@ void LineSweep::Run(
     if (area > 0.0)
     {
       state.Illuminance[side] =
-        tallies.ExpectedIlluminance[side] +
-        static_cast<float>(this->Weight_ / area) * tallies.Illuminance[side];
+        tallies.ExpectedIlluminance[side] + tallies.Illuminance[side] / static_cast<float>(area);
     }
     state.IlluminanceSum[side] += state.Illuminance[side];
   }
-  state.EscapedSum += this->Weight_ * tallies.Escaped;
+  state.EscapedSum += tallies.Escaped;
   ++state.Counted;
 }
 
@@ -406,9 +422,7 @@ double LineSweep::FirstSource() const
     power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
   }
   // The sky's light comes in through the box around the scene.
-  const Vec3 size = this->Upper_ - this->Lower_;
-  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  power += glm::pi<double>() * this->Scene_.Sky() * box;
+  power += glm::pi<double>() * this->Scene_.Sky() * this->Lines_.Outer().Area();
   return power;
 }
 

@@ -1,6 +1,7 @@
 // One sweep of random global lines: light carried along straight lines through the whole scene.
 #pragma once
 
+#include "GlobalLines.h"
 #include "LightField.h"
 #include "Scene.h"
 
@@ -28,12 +29,13 @@ struct BatchState
   void Restart();
 };
 
-/// What a sweep adds up, by how much light differs from what was expected; one a thread.
+/// What a sweep adds up, by how much light differs from what was expected, times the weights of
+/// the lines; one a thread.
 struct LineTallies
 {
   std::vector<float> Fluence, Illuminance;
   std::vector<float> ExpectedFluence, ExpectedIlluminance;
-  /// Radiance that left the scene, not a difference.
+  /// Power that left the scene, not a difference [lm].
   double Escaped = 0.0;
 };
 
@@ -50,7 +52,7 @@ public:
   LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band);
 
   /// Lines that cross each cell about 1.5 times.
-  std::size_t Lines() const { return this->Lines_; }
+  std::size_t Lines() const { return this->Lines_.Count(); }
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
   /// is added to the sums.
@@ -72,8 +74,8 @@ private:
 
   /// Expects the light that is known so far of the cells and patches where that tells something.
   void Expect(const BatchState& state, LineTallies& tallies) const;
-  void TraceLine(const BatchState& state, const Vec3& origin, const Vec3& direction, double length,
-    LineTallies& tallies, Buffers& buffers) const;
+  void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
+    Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
@@ -89,10 +91,7 @@ private:
   std::vector<float> Extinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  Vec3 Lower_, Upper_;
-  std::size_t Lines_ = 0;
-  /// Power that a line carries for each unit of its radiance [m2 sr].
-  double Weight_ = 0.0;
+  GlobalLines Lines_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
 };

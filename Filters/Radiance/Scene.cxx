@@ -147,12 +147,15 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
     EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
   this->SharesShapes_ = earlier && earlier->Lower_ == this->Lower_ &&
                         earlier->Upper_ == this->Upper_ &&
+                        earlier->Smoke_.Lower() == this->Smoke_.Lower() &&
+                        earlier->Smoke_.Upper() == this->Smoke_.Upper() &&
                         earlier->Description_.Surfaces == this->Description_.Surfaces &&
                         earlier->EmitterMesh_ == this->EmitterMesh_;
-  this->Shapes_ = this->SharesShapes_
-                    ? earlier->Shapes_
-                    : std::make_shared<const Geometry>(
-                        this->Description_.Surfaces, this->EmitterMesh_, glm::length(size));
+  this->Shapes_ =
+    this->SharesShapes_
+      ? earlier->Shapes_
+      : std::make_shared<const Geometry>(this->Description_.Surfaces, this->EmitterMesh_,
+          glm::length(size), glm::length(this->Smoke_.Upper() - this->Smoke_.Lower()));
   this->ExposedArea_ = this->SharesShapes_ ? earlier->ExposedArea_
                                            : ExposedAreas(*this->Shapes_,
                                                this->Description_.Surfaces, this->EmitterMesh_);

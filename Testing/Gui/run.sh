@@ -5,7 +5,7 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 plugin=$1 folder=$4
 mkdir -p "$folder"
-rm -f "$folder/passed"
+rm -f "$folder/passed" "$folder/failed"
 home=$(mktemp -d)
 trap 'rm -rf "$home"' EXIT
 # A home of its own: settings of the user would change the pictures.
@@ -15,6 +15,7 @@ PV_PLUGIN_PATH=$(dirname "$plugin") xvfb-run -a -s "-noreset -screen 0 1400x860x
   paraview --dr --script="$here/walk.py" 2>&1 | tee "$folder/log.txt"
 if [ ! -e "$folder/passed" ]; then
   echo "The walk did not reach its end."
+  cat "$folder/failed" || true
   exit 1
 fi
 echo "The walk reached its end."

@@ -163,6 +163,11 @@ boxed = simple.FloorMapOfVisibility(LightField=floor.LightField, Resolution=[4, 
 assert list(boxed.BoxPosition) == [0, 0, 0] and list(boxed.BoxSize) == [4, 1, 1], (boxed.BoxPosition, boxed.BoxSize)
 assert (scenes.point_array(scenes.fetch(boxed), "Visibility")
         == scenes.point_array(scenes.fetch(floor), "Visibility")).all()
+aside = simple.FloorMapOfVisibility(LightField=scenes.tunnel((8, 2, 2), Tolerance=0.1), UseBox=1,
+                                    BoxPosition=[0, 0, 0], BoxSize=[1, 1, 1])
+assert list(aside.BoxPosition) == [0, 0, 0] and list(aside.BoxSize) == [1, 1, 1], aside.BoxPosition
+beside = simple.FloorMapOfVisibility(LightField=floor.LightField, UseBox=1, BoxPosition=[0, 0, 0], BoxSize=[1, 1, 1])
+assert list(beside.BoxPosition) == [0, 0, 0] and list(beside.BoxSize) == [1, 1, 1], beside.BoxSize
 boxed.BoxPosition, boxed.BoxSize = [1, 0.25, 0.1], [2, 0.5, 0.9]
 boxed.Bounds = [0, 1, 0, 1, 0, 1]
 assert scenes.fetch(boxed).GetBounds() == (1.25, 2.75, 0.375, 0.625, 0.6, 0.6), scenes.fetch(boxed).GetBounds()

@@ -44,7 +44,8 @@ public:
       const Part& whole = this->Place_.Parts[owner].at(i);
       ASSERT_EQ(owner, whole.Owner);
       ASSERT_EQ(parts[i].Bytes, whole.Bytes);
-      if (owner != this->Rank_)
+      // An empty part may have no address.
+      if (owner != this->Rank_ && whole.Bytes > 0)
       {
         std::memcpy(parts[i].Data, whole.Data, whole.Bytes);
       }

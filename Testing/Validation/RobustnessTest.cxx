@@ -184,6 +184,48 @@ TEST(OddInput, DuplicateAndSliverTriangles)
     MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0}), 0.01);
 }
 
+// A room on a ground a hundred times as wide: lines go through the smoke's box, too, so that they
+// need not be a hundred times as many.
+TEST(OddInput, SmokeInALargeScene)
+{
+  const auto scene = [](double ground)
+  {
+    SceneDescription description;
+    description.Albedo = 0.8;
+    description.Grids = {scenes::UniformSmoke(Vec3(0.0), {4, 3, 2.5}, {16, 12, 10}, 0.4)};
+    scenes::AddRectangle(description.Surfaces, Vec3(-ground, -ground, -0.05),
+      {4 + 2 * ground, 0, 0}, {0, 3 + 2 * ground, 0}, 8, 8, 0.0);
+    scenes::AddRectangle(description.Surfaces, Vec3(0.0), {4, 0, 0}, {0, 3, 0}, 16, 12, 0.3);
+    scenes::AddRectangle(description.Surfaces, Vec3(0, 0, 2.5), {0, 3, 0}, {4, 0, 0}, 12, 16, 0.7);
+    description.Emitters =
+      scenes::Barcode({3.9, 1.5, 2.0}, {-1, 0, 0}, {0, 0, 1}, 0.8, 0.4, 8, 300.0, 0, 0.5);
+    return description;
+  };
+  const Solved small(scene(2.0));
+  const Solved large(scene(200.0));
+  const auto lines = [](const Solved& solved)
+  {
+    double count = 0.0;
+    for (const auto& row : solved.Field->Report)
+    {
+      count += row.What.find("lines a sweep") != std::string::npos ? row.Count : 0.0;
+    }
+    return count;
+  };
+  EXPECT_LT(lines(large), 3.0 * lines(small));
+  report::Head("Smoke in a scene a hundred times as wide, against the reference integrator");
+  const ReferenceIntegrator integrator(*large.TheScene);
+  for (const Ray& ray : {Ray{{0.5, 1.5, 1.6}, glm::normalize(Vec3(4.0, -1.0, 0.0))},
+         Ray{{2.0, 0.5, 1.6}, {0.0, 1.0, 0.0}}, Ray{{0.5, 1.0, 1.6}, {0.6, 0.0, -0.8}}})
+  {
+    const Hit hit = large.TheView->FirstHit(ray.Origin, ray.Direction);
+    const auto value = large.TheView->Trace(ray.Origin, ray.Direction, hit, 0);
+    const Estimate judge = integrator.Radiance(ray, 200000, 5);
+    // 1 %, the tolerance, and its own noise.
+    report::Relative("luminance", judge.Mean, value.Total(), 0.02, judge.StandardError);
+  }
+}
+
 // The sign may lie in the wall, a hair in front of it or a hair behind it.
 TEST(OddInput, SignFlushWithTheWall)
 {

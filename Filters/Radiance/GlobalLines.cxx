@@ -1,0 +1,146 @@
+#include "GlobalLines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// A line of the uniform measure of lines through a box: it enters anywhere on the box's surface
+/// with a cosine-distributed direction.
+void DrawThrough(const Box& box, const std::array<double, 4>& random, Vec3& origin, Vec3& direction)
+{
+  const Vec3 size = box.Upper - box.Lower;
+  const Vec3 faces(size.y * size.z, size.z * size.x, size.x * size.y);
+  // The first number chooses one of six faces and then a place on it.
+  double pick = random[0] * 2.0 * (faces.x + faces.y + faces.z);
+  int axis = 0;
+  while (axis < 2 && pick >= 2.0 * faces[axis])
+  {
+    pick -= 2.0 * faces[axis];
+    ++axis;
+  }
+  const bool high = pick >= faces[axis];
+  const double place = std::clamp((pick - (high ? faces[axis] : 0.0)) / faces[axis], 0.0, 1.0);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  origin[axis] = high ? box.Upper[axis] : box.Lower[axis];
+  origin[u] = box.Lower[u] + place * size[u];
+  origin[v] = box.Lower[v] + random[1] * size[v];
+  const double sine = std::sqrt(random[2]);
+  const double angle = glm::two_pi<double>() * random[3];
+  direction[axis] = (high ? -1.0 : 1.0) * std::sqrt(1.0 - random[2]);
+  direction[u] = sine * std::cos(angle);
+  direction[v] = sine * std::sin(angle);
+}
+
+} // namespace
+
+double Box::Area() const
+{
+  const Vec3 size = this->Upper - this->Lower;
+  return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+bool Box::Contains(const Vec3& point) const
+{
+  return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
+         glm::all(glm::lessThanEqual(point, this->Upper));
+}
+
+bool Box::Clip(const Vec3& origin, const Vec3& direction, double& begin, double& end) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (direction[axis] == 0.0)
+    {
+      if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
+      {
+        return false;
+      }
+      continue;
+    }
+    const double low = (this->Lower[axis] - origin[axis]) / direction[axis];
+    const double high = (this->Upper[axis] - origin[axis]) / direction[axis];
+    begin = std::max(begin, std::min(low, high));
+    end = std::min(end, std::max(low, high));
+  }
+  return end > begin;
+}
+
+GlobalLines::GlobalLines(const Box& scene, std::size_t lines)
+    : Scene_(scene), Lines_(lines),
+      // All directed lines through a convex body measure pi times its surface. Each line drawn
+      // serves in both of its directions.
+      Weight_(glm::half_pi<double>() * scene.Area() / static_cast<double>(lines)),
+      InnerWeight_(this->Weight_)
+{
+}
+
+void GlobalLines::AddInner(const Box& inner, std::size_t lines)
+{
+  this->Inner_ = inner;
+  this->InnerLines_ = lines;
+  this->InnerWeight_ = glm::half_pi<double>() / this->Meetings(1.0, true);
+}
+
+double GlobalLines::Meetings(double area, bool inside) const
+{
+  const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Area();
+  return this->Inner_ && inside
+           ? outer + static_cast<double>(this->InnerLines_) * area / this->Inner_->Area()
+           : outer;
+}
+
+GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key)
+    : Lines_(lines), Points_(key), InnerPoints_(Mix(key))
+{
+}
+
+GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
+{
+  const GlobalLines& lines = this->Lines_;
+  Line line;
+  const bool inner = index >= lines.Lines_;
+  if (inner)
+  {
+    DrawThrough(
+      *lines.Inner_, this->InnerPoints_.Point(index - lines.Lines_), line.Origin, line.Direction);
+  }
+  else
+  {
+    DrawThrough(lines.Scene_, this->Points_.Point(index), line.Origin, line.Direction);
+  }
+  double begin = -Infinity;
+  double end = Infinity;
+  bool meets = inner;
+  if (!inner && lines.Inner_)
+  {
+    meets = lines.Inner_->Clip(line.Origin, line.Direction, begin, end);
+    begin = -Infinity;
+    end = Infinity;
+  }
+  lines.Scene_.Clip(line.Origin, line.Direction, begin, end);
+  if (inner)
+  {
+    line.Origin += begin * line.Direction;
+    line.Length = end - begin;
+  }
+  else
+  {
+    line.Length = end;
+  }
+  line.Weight = meets ? lines.InnerWeight_ : lines.Weight_;
+  return line;
+}
+
+} // namespace smokevis
