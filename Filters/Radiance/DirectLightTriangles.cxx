@@ -1,0 +1,116 @@
+// DirectLight's part for surfaces: means over the two sides of a triangle.
+#include "DirectLight.h"
+
+#include "Scene.h"
+
+#include <algorithm>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// A triangle as large as this share of its distance to the light is split.
+constexpr double TriangleRatio = 0.5;
+constexpr double TrianglePointRatio = 0.1;
+constexpr int TriangleSplits = 4;
+
+} // namespace
+
+std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
+  std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const
+{
+  std::array<Spectrum, 2> sum{};
+  this->AddTriangle(light, corners, normal, TriangleSplits, 1.0, sum);
+  return sum;
+}
+
+void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners,
+  const Vec3& normal, int splits, double weight, std::array<Spectrum, 2>& sum) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+  double size = 0.0;
+  for (const Vec3& corner : corners)
+  {
+    size = std::max(size, glm::length(corner - centre));
+  }
+  const double distance = root.Distance(centre);
+  // What does not reach before the light gets nothing from it: so do the light's own cells, and the
+  // wall that it is on.
+  const auto height = [&root](const Vec3& corner)
+  { return glm::dot(corner - root.Centre, root.Normal); };
+  const double highest = std::max({height(corners[0]), height(corners[1]), height(corners[2])});
+  if (highest <= this->Scene_.Shapes().Tolerance() - root.Depth)
+  {
+    return;
+  }
+  size *= root.Law.Sharpness();
+  const auto splitAll = [&]
+  {
+    const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),
+      0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0])};
+    const double quarter = 0.25 * weight;
+    this->AddTriangle(light, {corners[0], middle[0], middle[2]}, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {middle[0], corners[1], middle[1]}, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, middle, normal, splits - 1, quarter, sum);
+  };
+  if (splits > 0 && size > TriangleRatio * distance)
+  {
+    splitAll();
+    return;
+  }
+  // Three points are exact for a quadratic (Strang and Fix).
+  std::array<Vec3, 3> points;
+  const int count = size < TrianglePointRatio * distance ? 1 : 3;
+  for (int i = 0; i < count; ++i)
+  {
+    points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);
+  }
+  bool clear = false;
+  if (count > 1)
+  {
+    double least = 1.0;
+    double most = 0.0;
+    for (int i = 0; i < count; ++i)
+    {
+      const double share = this->VisibleShare(root, points[i]);
+      least = std::min(least, share);
+      most = std::max(most, share);
+    }
+    if (most == 0.0)
+    {
+      return;
+    }
+    clear = least == 1.0;
+    if (!clear && splits > 0)
+    {
+      // The edge of a shadow runs through the triangle.
+      splitAll();
+      return;
+    }
+  }
+  for (int face = 0; face < 2; ++face)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
+      const double side = glm::dot(root.Centre - points[i], normal);
+      if ((face == 0 ? side : -side) <= -root.Radius)
+      {
+        continue;
+      }
+      const Spectrum value =
+        this->Illuminance(light, points[i], face == 0 ? normal : -normal, clear);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[face][band] += weight / count * value[band];
+      }
+    }
+  }
+}
+
+} // namespace smokevis
