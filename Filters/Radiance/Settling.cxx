@@ -69,6 +69,9 @@ BlockMeans::BlockMeans(
   }
   for (Block& block : this->Blocks_)
   {
+    // What holds no light at all is known perfectly, which tells nothing of the rest.
+    block.Lit = block.Direct > 0.0 || std::any_of(block.Multiple.begin(), block.Multiple.end(),
+                                        [](double value) { return value != 0.0; });
     block.Direct += DarkShare * all / static_cast<double>(this->Blocks_.size());
   }
 }
@@ -107,7 +110,7 @@ BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resol
   {
     const Block& block = this->Blocks_[index];
     const double all = std::max(0.0, MeanOf(block.Multiple)) + block.Direct;
-    if (!(all > 0.0))
+    if (!block.Lit || !(all > 0.0))
     {
       continue;
     }

@@ -39,6 +39,7 @@ private:
     double Direct = 0.0;
     /// A value a batch.
     std::vector<double> Multiple;
+    bool Lit = false;
   };
 
   void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,

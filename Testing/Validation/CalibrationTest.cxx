@@ -93,8 +93,8 @@ private:
 
 // The truth is the mean over other seeds of solutions with a fraction of the noise: what error bars
 // are to tell is the noise, not the cells' size, which the other tests look at.
-void CheckSeeds(
-  const SceneDescription& room, int seeds, double tolerance, double referenceTolerance = 0.0005)
+void CheckSeeds(const SceneDescription& room, int firstSeed, int seeds, double tolerance,
+  double referenceTolerance = 0.0005)
 {
   const std::vector<std::int64_t> cell = {2 + 8 * (1 + 4 * 2)};
   const Ray ray{Eye, glm::normalize(Vec3(1.0, 0.25, -0.2))};
@@ -128,7 +128,7 @@ void CheckSeeds(
   Calibration ofFluence = make("fluence", fluence);
   Calibration ofLuminance = make("luminance", luminance);
   Calibration ofContrast = make("contrast", contrast);
-  for (int seed = 1; seed <= seeds; ++seed)
+  for (int seed = firstSeed; seed < firstSeed + seeds; ++seed)
   {
     const Solved solved(room, tolerance, static_cast<std::uint64_t>(seed));
     ofFluence.Add(solved.Fluence(cell));
@@ -146,20 +146,27 @@ void CheckSeeds(
 
 TEST(Calibration, SixtySeeds)
 {
-  CheckSeeds(SmallRoom(0.9, 0.4), 60, 0.05, 0.002);
+  CheckSeeds(SmallRoom(0.9, 0.4), 1, 60, 0.05, 0.002);
 }
+
+// Other seeds than those that the solver's rule for settled light was chosen on.
+constexpr int OtherSeeds = 1001;
 
 TEST(Calibration, TwoHundredSeedsLong)
 {
-  CheckSeeds(SmallRoom(0.9, 0.4), 200, 0.05);
-  CheckSeeds(SmallRoom(0.9, 0.4), 200, 0.002);
+  CheckSeeds(SmallRoom(0.9, 0.4), OtherSeeds, 200, 0.05);
+}
+
+TEST(Calibration, TwoHundredSeedsFineLong)
+{
+  CheckSeeds(SmallRoom(0.9, 0.4), OtherSeeds, 200, 0.002);
 }
 
 // Light that is hardly lost takes long to settle; in soot most of it is direct.
 TEST(Calibration, WhiteRoomAndSootLong)
 {
-  CheckSeeds(SmallRoom(0.99, 0.9), 200, 0.05);
-  CheckSeeds(SmallRoom(0.3, 0.1), 200, 0.05);
+  CheckSeeds(SmallRoom(0.99, 0.9), OtherSeeds, 200, 0.05);
+  CheckSeeds(SmallRoom(0.3, 0.1), OtherSeeds, 200, 0.05);
 }
 
 } // namespace
