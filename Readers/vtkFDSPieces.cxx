@@ -2,6 +2,7 @@
 
 #include "FlameLight.h"
 #include "RankReport.h"
+#include "Ranks.h"
 #include "SmvFile.h"
 
 #include "vtkCommunicator.h"
@@ -29,15 +30,14 @@ FDSPieces::FDSPieces(const SmvFile& index, vtkInformation* output)
     pieces = std::max(1, output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
     piece_ = std::clamp(output->Get(Pipeline::UPDATE_PIECE_NUMBER()), 0, pieces - 1);
   }
-  vtkMultiProcessController* const controller = vtkMultiProcessController::GetGlobalController();
-  const int processes = controller ? controller->GetNumberOfProcesses() : 1;
+  const Ranks ranks;
   int share = piece_;
-  if (processes > 1 && (pieces == 1 || pieces == processes))
+  if (ranks.Count() > 1 && (pieces == 1 || pieces == ranks.Count()))
   {
-    processes_ = processes;
+    processes_ = ranks.Count();
     exchanges_ = pieces == 1;
-    pieces = processes;
-    share = controller->GetLocalProcessId();
+    pieces = processes_;
+    share = ranks.Rank();
   }
 
   // Meshes in their order, as many cells each as can be.
@@ -67,14 +67,8 @@ FDSPieces::FDSPieces(const SmvFile& index, vtkInformation* output)
 //------------------------------------------------------------------------------------------------
 FDSPieces::Outcome FDSPieces::Agree(Outcome own) const
 {
-  const int sent = static_cast<int>(own);
-  int received = sent;
-  if (processes_ > 1)
-  {
-    vtkMultiProcessController::GetGlobalController()->AllReduce(
-      &sent, &received, 1, vtkCommunicator::MAX_OP);
-  }
-  return static_cast<Outcome>(received);
+  const int number = static_cast<int>(own);
+  return static_cast<Outcome>(processes_ > 1 ? Ranks().Most(number) : number);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -103,12 +97,7 @@ FlameLight FDSPieces::Sum(const std::vector<FlameLight>& meshes) const
 //------------------------------------------------------------------------------------------------
 std::vector<double> FDSPieces::Each(double own) const
 {
-  std::vector<double> all(processes_, own);
-  if (processes_ > 1)
-  {
-    vtkMultiProcessController::GetGlobalController()->AllGather(&own, all.data(), 1);
-  }
-  return all;
+  return processes_ > 1 ? Ranks().Each(own) : std::vector<double>(1, own);
 }
 
 //------------------------------------------------------------------------------------------------

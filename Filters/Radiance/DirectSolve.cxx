@@ -28,29 +28,20 @@ struct Triangle
   double Area;
 };
 
-/// Triangles of each patch, surfaces first.
+/// Triangles of each patch.
 std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 {
   std::vector<std::vector<Triangle>> patches(scene.Patches());
-  std::size_t first = 0;
-  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
-  {
-    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+  scene.ForEachTriangle(
+    [&patches](std::size_t patch, const std::array<Vec3, 3>& corners)
     {
-      Triangle triangle;
-      for (int corner = 0; corner < 3; ++corner)
+      const double area =
+        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      if (area > 0.0)
       {
-        triangle.Corners[corner] = mesh->Points[mesh->Triangles[i][corner]];
+        patches[patch].push_back({corners, area});
       }
-      triangle.Area = 0.5 * glm::length(glm::cross(triangle.Corners[1] - triangle.Corners[0],
-                              triangle.Corners[2] - triangle.Corners[0]));
-      if (triangle.Area > 0.0)
-      {
-        patches[first + mesh->TriangleCell[i]].push_back(triangle);
-      }
-    }
-    first += mesh->CellReflectance.size();
-  }
+    });
   return patches;
 }
 

@@ -98,11 +98,6 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
 void GlareSources::AddParts(const View& view, const LightGroup& leaf)
 {
   const auto& corners = leaf.Corners;
-  const auto place = [&corners](double u, double v)
-  {
-    return (1.0 - v) * ((1.0 - u) * corners[0] + u * corners[1]) +
-           v * ((1.0 - u) * corners[3] + u * corners[2]);
-  };
   const double distance = leaf.Distance(this->Eye_);
   const int across =
     PartsOf(std::max(glm::distance(corners[0], corners[1]), glm::distance(corners[3], corners[2])),
@@ -115,7 +110,7 @@ void GlareSources::AddParts(const View& view, const LightGroup& leaf)
     for (int i = 0; i < across; ++i)
     {
       const auto at = [&](double right, double above)
-      { return place((i + right) / across, (j + above) / up); };
+      { return leaf.At((i + right) / across, (j + above) / up); };
       const double area =
         0.5 * glm::length(glm::cross(at(1.0, 1.0) - at(0.0, 0.0), at(0.0, 1.0) - at(1.0, 0.0)));
       Spectrum intensity = leaf.Intensity;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/gtc/constants.hpp>
 
@@ -45,43 +46,11 @@ void DrawThrough(const Box& box, const std::array<double, 4>& random, Vec3& orig
 
 } // namespace
 
-double Box::Area() const
-{
-  const Vec3 size = this->Upper - this->Lower;
-  return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-}
-
-bool Box::Contains(const Vec3& point) const
-{
-  return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
-         glm::all(glm::lessThanEqual(point, this->Upper));
-}
-
-bool Box::Clip(const Vec3& origin, const Vec3& direction, double& begin, double& end) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (direction[axis] == 0.0)
-    {
-      if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
-      {
-        return false;
-      }
-      continue;
-    }
-    const double low = (this->Lower[axis] - origin[axis]) / direction[axis];
-    const double high = (this->Upper[axis] - origin[axis]) / direction[axis];
-    begin = std::max(begin, std::min(low, high));
-    end = std::min(end, std::max(low, high));
-  }
-  return end > begin;
-}
-
 GlobalLines::GlobalLines(const Box& scene, std::size_t lines)
     : Scene_(scene), Lines_(lines),
       // All directed lines through a convex body measure pi times its surface. Each line drawn
       // serves in both of its directions.
-      Weight_(glm::half_pi<double>() * scene.Area() / static_cast<double>(lines)),
+      Weight_(glm::half_pi<double>() * scene.Surface() / static_cast<double>(lines)),
       InnerWeight_(this->Weight_)
 {
 }
@@ -95,9 +64,9 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
 
 double GlobalLines::Meetings(double area, bool inside) const
 {
-  const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Area();
+  const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Surface();
   return this->Inner_ && inside
-           ? outer + static_cast<double>(this->InnerLines_) * area / this->Inner_->Area()
+           ? outer + static_cast<double>(this->InnerLines_) * area / this->Inner_->Surface()
            : outer;
 }
 
@@ -110,36 +79,27 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
 {
   const GlobalLines& lines = this->Lines_;
   Line line;
-  const bool inner = index >= lines.Lines_;
-  if (inner)
+  const bool drawnInside = index >= lines.Lines_;
+  DrawThrough(drawnInside ? *lines.Inner_ : lines.Scene_,
+    drawnInside ? this->InnerPoints_.Point(index - lines.Lines_) : this->Points_.Point(index),
+    line.Origin, line.Direction);
+  const Vec3 inverse = 1.0 / line.Direction;
+  const auto stretch = [&](const Box& box)
   {
-    DrawThrough(
-      *lines.Inner_, this->InnerPoints_.Point(index - lines.Lines_), line.Origin, line.Direction);
-  }
-  else
+    std::pair<double, double> ends(-Infinity, Infinity);
+    box.Clip(line.Origin, line.Direction, inverse, ends.first, ends.second);
+    return ends;
+  };
+  bool meetsInner = drawnInside;
+  if (lines.Inner_ && !drawnInside)
   {
-    DrawThrough(lines.Scene_, this->Points_.Point(index), line.Origin, line.Direction);
+    const auto [enter, leave] = stretch(*lines.Inner_);
+    meetsInner = leave > enter;
   }
-  double begin = -Infinity;
-  double end = Infinity;
-  bool meets = inner;
-  if (!inner && lines.Inner_)
-  {
-    meets = lines.Inner_->Clip(line.Origin, line.Direction, begin, end);
-    begin = -Infinity;
-    end = Infinity;
-  }
-  lines.Scene_.Clip(line.Origin, line.Direction, begin, end);
-  if (inner)
-  {
-    line.Origin += begin * line.Direction;
-    line.Length = end - begin;
-  }
-  else
-  {
-    line.Length = end;
-  }
-  line.Weight = meets ? lines.InnerWeight_ : lines.Weight_;
+  const auto [begin, end] = stretch(lines.Scene_);
+  line.Origin += begin * line.Direction;
+  line.Length = end - begin;
+  line.Weight = meetsInner ? lines.InnerWeight_ : lines.Weight_;
   return line;
 }
 

@@ -1,8 +1,8 @@
 // Random straight lines through a whole scene.
 #pragma once
 
+#include "Box.h"
 #include "Sampler.h"
-#include "Types.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,18 +10,6 @@
 
 namespace smokevis
 {
-
-/// A box with its edges along the axes.
-struct Box
-{
-  Vec3 Lower, Upper;
-
-  /// [m2]
-  double Area() const;
-  bool Contains(const Vec3& point) const;
-  /// Shortens a stretch of a line to what lies in the box; returns whether anything does.
-  bool Clip(const Vec3& origin, const Vec3& direction, double& begin, double& end) const;
-};
 
 /// Lines of the uniform measure that meet the scene's box and, where the smoke fills little of it,
 /// further ones that meet the smoke's. Each counts by the density of both kinds together (the

@@ -57,7 +57,7 @@ double LinesForPatches(
     }
   }
   // Patches that are tiny against the box are not worth a flood of lines.
-  return area > 0.0 ? std::min(CrossingsPerSweep * reflecting * box.Area() / (2.0 * area),
+  return area > 0.0 ? std::min(CrossingsPerSweep * reflecting * box.Surface() / (2.0 * area),
                         MostLinesForPatches)
                     : 0.0;
 }
@@ -66,25 +66,15 @@ double LinesForPatches(
 std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
 {
   std::vector<bool> inside(scene.Patches(), true);
-  std::size_t first = 0;
-  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
-  {
-    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+  scene.ForEachTriangle(
+    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
     {
-      for (const auto corner : mesh->Triangles[i])
+      for (const Vec3& corner : corners)
       {
-        const std::size_t patch = first + mesh->TriangleCell[i];
-        inside[patch] = inside[patch] && box.Contains(mesh->Points[corner]);
+        inside[patch] = inside[patch] && box.Contains(corner);
       }
-    }
-    first += mesh->CellReflectance.size();
-  }
+    });
   return inside;
-}
-
-double SurfaceOf(const Vec3& edges)
-{
-  return 2.0 * (edges.x * edges.y + edges.y * edges.z + edges.z * edges.x);
 }
 
 GlobalLines LinesFor(const Scene& scene, int band)
@@ -93,7 +83,7 @@ GlobalLines LinesFor(const Scene& scene, int band)
   double boundary = 0.0;
   for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
   {
-    boundary += SurfaceOf(smoke.CellSize(static_cast<std::int64_t>(cell)));
+    boundary += BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell)));
   }
   const auto count = [](double lines)
   { return std::max(FewestLines, static_cast<std::size_t>(std::ceil(lines))); };
@@ -104,17 +94,17 @@ GlobalLines LinesFor(const Scene& scene, int band)
   const double margin = 1e-4 * glm::length(smoke.Upper() - smoke.Lower());
   const Box inner = {
     glm::max(box.Lower, smoke.Lower() - margin), glm::min(box.Upper, smoke.Upper() + margin)};
-  if (smoke.Empty() || box.Area() < InnerRatio * inner.Area())
+  if (smoke.Empty() || box.Surface() < InnerRatio * inner.Surface())
   {
     const std::vector<bool> all(scene.Patches(), true);
     return {
-      box, count(std::max(linesPerArea * box.Area(), LinesForPatches(scene, band, box, all)))};
+      box, count(std::max(linesPerArea * box.Surface(), LinesForPatches(scene, band, box, all)))};
   }
   std::vector<bool> inside = PatchesIn(scene, inner);
   const double forInside = LinesForPatches(scene, band, inner, inside);
   inside.flip();
   GlobalLines lines(box, count(LinesForPatches(scene, band, box, inside)));
-  lines.AddInner(inner, count(std::max(linesPerArea * inner.Area(), forInside)));
+  lines.AddInner(inner, count(std::max(linesPerArea * inner.Surface(), forInside)));
   return lines;
 }
 
@@ -181,9 +171,10 @@ LineSweep::LineSweep(
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
     this->CellCrossings_[cell] = static_cast<float>(
-      this->Lines_.Meetings(SurfaceOf(smoke.CellSize(static_cast<std::int64_t>(cell))), true));
+      this->Lines_.Meetings(BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell))), true));
   }
-  const std::vector<bool> inside = PatchesIn(scene, this->Lines_.Inner().value_or(SceneBox(scene)));
+  const std::vector<bool> inside =
+    PatchesIn(scene, this->Lines_.Inner().value_or(this->Lines_.Outer()));
   this->SideHits_.resize(2 * scene.Patches());
   for (std::size_t side = 0; side < this->SideHits_.size(); ++side)
   {
@@ -422,7 +413,7 @@ double LineSweep::FirstSource() const
     power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
   }
   // The sky's light comes in through the box around the scene.
-  power += glm::pi<double>() * this->Scene_.Sky() * this->Lines_.Outer().Area();
+  power += glm::pi<double>() * this->Scene_.Sky() * this->Lines_.Outer().Surface();
   return power;
 }
 

@@ -95,12 +95,6 @@ int Medium::Grid::Index(int axis, double coordinate) const
   return index;
 }
 
-bool Medium::Grid::Contains(const Vec3& point) const
-{
-  return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
-         glm::all(glm::lessThanEqual(point, this->Upper));
-}
-
 Medium::Medium(std::vector<SmokeGrid> grids)
 {
   this->Lower_ = Vec3(Infinity);
@@ -123,8 +117,8 @@ Medium::Medium(std::vector<SmokeGrid> grids)
     {
       const std::vector<double>& nodes = source.Nodes[axis];
       grid.Size[axis] = static_cast<int>(nodes.size()) - 1;
-      grid.Lower[axis] = nodes.front();
-      grid.Upper[axis] = nodes.back();
+      grid.Bounds.Lower[axis] = nodes.front();
+      grid.Bounds.Upper[axis] = nodes.back();
       double smallest = Infinity;
       double largest = 0.0;
       for (std::size_t i = 1; i < nodes.size(); ++i)
@@ -140,8 +134,8 @@ Medium::Medium(std::vector<SmokeGrid> grids)
       }
     }
     grid.Nodes = std::move(source.Nodes);
-    this->Lower_ = glm::min(this->Lower_, grid.Lower);
-    this->Upper_ = glm::max(this->Upper_, grid.Upper);
+    this->Lower_ = glm::min(this->Lower_, grid.Bounds.Lower);
+    this->Upper_ = glm::max(this->Upper_, grid.Bounds.Upper);
     this->Extinction_.insert(
       this->Extinction_.end(), source.Extinction.begin(), source.Extinction.end());
     if (emits)
@@ -170,8 +164,8 @@ Medium::Medium(std::vector<SmokeGrid> grids)
   {
     for (std::size_t b = 0; b < a && !this->Overlap_; ++b)
     {
-      const Vec3 lower = glm::max(this->Grids_[a].Lower, this->Grids_[b].Lower);
-      const Vec3 upper = glm::min(this->Grids_[a].Upper, this->Grids_[b].Upper);
+      const Vec3 lower = glm::max(this->Grids_[a].Bounds.Lower, this->Grids_[b].Bounds.Lower);
+      const Vec3 upper = glm::min(this->Grids_[a].Bounds.Upper, this->Grids_[b].Bounds.Upper);
       this->Overlap_ = glm::all(glm::lessThan(lower, upper));
     }
   }
@@ -243,7 +237,7 @@ std::int64_t Medium::Locate(const Vec3& point) const
   for (const int rank : this->Rank_)
   {
     const Grid& grid = this->Grids_[rank];
-    if (grid.Contains(point))
+    if (grid.Bounds.Contains(point))
     {
       return grid.Cell({grid.Index(0, point.x), grid.Index(1, point.y), grid.Index(2, point.z)});
     }
@@ -369,27 +363,6 @@ void Medium::WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& directio
   }
 }
 
-bool Medium::Grid::Clip(
-  const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin, double& end) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (direction[axis] == 0.0)
-    {
-      if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
-      {
-        return false;
-      }
-      continue;
-    }
-    const double low = (this->Lower[axis] - origin[axis]) * inverse[axis];
-    const double high = (this->Upper[axis] - origin[axis]) * inverse[axis];
-    begin = std::max(begin, std::min(low, high));
-    end = std::min(end, std::max(low, high));
-  }
-  return end > begin;
-}
-
 template <class Visit>
 void Medium::ForEachPiece(
   const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const
@@ -407,7 +380,7 @@ void Medium::ForEachPiece(
     const Grid& grid = this->Grids_[this->Rank_[rank]];
     double enter = begin;
     double leave = end;
-    if (grid.Clip(origin, direction, inverse, enter, leave))
+    if (grid.Bounds.Clip(origin, direction, inverse, enter, leave))
     {
       intervals.push_back({enter, leave, static_cast<int>(rank)});
     }
@@ -480,7 +453,7 @@ double Medium::OpticalDepth(
 {
   if (this->Even_)
   {
-    return this->Grids_[0].Clip(origin, direction, 1.0 / direction, begin, end)
+    return this->Grids_[0].Bounds.Clip(origin, direction, 1.0 / direction, begin, end)
              ? this->MaximumExtinction_ * (end - begin)
              : 0.0;
   }

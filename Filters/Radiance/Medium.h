@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include "Box.h"
 #include "Types.h"
 
 #include <string>
@@ -84,7 +85,8 @@ public:
   {
     for (const Grid& grid : this->Grids_)
     {
-      if (glm::any(glm::lessThan(high, grid.Lower)) || glm::any(glm::greaterThan(low, grid.Upper)))
+      if (glm::any(glm::lessThan(high, grid.Bounds.Lower)) ||
+          glm::any(glm::greaterThan(low, grid.Bounds.Upper)))
       {
         continue;
       }
@@ -120,7 +122,10 @@ public:
 
   /// Whether a point lies in smoke that is the same all over the one grid there is. Between two
   /// such points the extinction is MaximumExtinction().
-  bool EvenAt(const Vec3& point) const { return this->Even_ && this->Grids_[0].Contains(point); }
+  bool EvenAt(const Vec3& point) const
+  {
+    return this->Even_ && this->Grids_[0].Bounds.Contains(point);
+  }
 
   /// Optical depth of the ray between two distances, for extinction as given (633 nm).
   double OpticalDepth(const Vec3& origin, const Vec3& direction, double begin, double end) const;
@@ -133,8 +138,7 @@ private:
     Vec3 InverseStep{0.0};
     std::array<int, 3> Size{};
     std::int64_t FirstCell = 0;
-    Vec3 Lower{0.0};
-    Vec3 Upper{0.0};
+    Box Bounds;
     /// Smallest cell volume, by which grids are ranked.
     double Fineness = 0.0;
 
@@ -144,10 +148,6 @@ private:
       return this->FirstCell + index[0] +
              this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
     }
-    bool Contains(const Vec3& point) const;
-    /// Cuts a piece of a ray to what lies inside; whether anything is left.
-    bool Clip(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin,
-      double& end) const;
   };
 
   template <class Visit>

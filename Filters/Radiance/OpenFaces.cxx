@@ -17,18 +17,14 @@ OpenFaces::OpenFaces(const Scene& scene)
   // Only cells that the box around a triangle touches, or whose neighbour's it does, can be parted
   // from a neighbour.
   std::vector<unsigned char> touched(smoke.Cells(), 0);
-  for (const SurfaceMesh* mesh : {&scene.Surfaces(), &scene.EmitterMesh()})
-  {
-    for (const auto& triangle : mesh->Triangles)
+  const double gap = 4.0 * shapes.Tolerance();
+  scene.ForEachTriangle(
+    [&](std::size_t, const std::array<Vec3, 3>& corners)
     {
-      const Vec3& a = mesh->Points[triangle[0]];
-      const Vec3& b = mesh->Points[triangle[1]];
-      const Vec3& c = mesh->Points[triangle[2]];
-      const double gap = 4.0 * shapes.Tolerance();
+      const auto& [a, b, c] = corners;
       smoke.ForCellsIn(glm::min(a, glm::min(b, c)) - gap, glm::max(a, glm::max(b, c)) + gap,
         [&touched](std::int64_t cell) { touched[cell] = 1; });
-    }
-  }
+    });
   this->Faces_.assign(smoke.Cells(), 0);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)

@@ -31,8 +31,7 @@ PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
   const DirectField& direct, LightField& field, int band)
     : Scene_(scene), Options_(options), Direct_(direct), Field_(field), Band_(band)
 {
-  const Vec3 size = scene.Upper() - scene.Lower();
-  this->LargestPlate_ = LargestShare * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  this->LargestPlate_ = LargestShare * BoxSurface(scene.Upper() - scene.Lower());
 }
 
 std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress& progress)

@@ -113,25 +113,17 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   this->Lower_ = Vec3(infinity);
   this->Upper_ = Vec3(-infinity);
-  std::size_t first = 0;
-  for (const SurfaceMesh* mesh : {&this->Description_.Surfaces, &this->EmitterMesh_})
-  {
-    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+  this->ForEachTriangle(
+    [this](std::size_t patch, const std::array<Vec3, 3>& corners)
     {
-      const auto& triangle = mesh->Triangles[i];
-      const Vec3& a = mesh->Points[triangle[0]];
-      const Vec3& b = mesh->Points[triangle[1]];
-      const Vec3& c = mesh->Points[triangle[2]];
-      this->PatchArea_[first + mesh->TriangleCell[i]] +=
-        0.5 * glm::length(glm::cross(b - a, c - a));
-      for (const Vec3* corner : {&a, &b, &c})
+      this->PatchArea_[patch] +=
+        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      for (const Vec3& corner : corners)
       {
-        this->Lower_ = glm::min(this->Lower_, *corner);
-        this->Upper_ = glm::max(this->Upper_, *corner);
+        this->Lower_ = glm::min(this->Lower_, corner);
+        this->Upper_ = glm::max(this->Upper_, corner);
       }
-    }
-    first += mesh->CellReflectance.size();
-  }
+    });
   if (!this->Smoke_.Empty())
   {
     this->Lower_ = glm::min(this->Lower_, this->Smoke_.Lower());
@@ -142,9 +134,8 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
   const Vec3 size = this->Upper_ - this->Lower_;
-  const double box = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  this->Lights_ =
-    EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands, LargeLight * box);
+  this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands,
+    LargeLight * BoxSurface(size));
   this->SharesShapes_ = earlier && earlier->Lower_ == this->Lower_ &&
                         earlier->Upper_ == this->Upper_ &&
                         earlier->Smoke_.Lower() == this->Smoke_.Lower() &&

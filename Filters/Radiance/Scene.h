@@ -89,6 +89,9 @@ public:
   const SurfaceMesh& Surfaces() const { return this->Description_.Surfaces; }
   const SurfaceMesh& EmitterMesh() const { return this->EmitterMesh_; }
 
+  /// Calls visit(patch, corners) for all of them.
+  template <class Visit> void ForEachTriangle(Visit&& visit) const;
+
   /// The corner with the smallest and the one with the largest coordinates of all there is.
   const Vec3& Lower() const { return this->Lower_; }
   const Vec3& Upper() const { return this->Upper_; }
@@ -108,5 +111,20 @@ private:
   Vec3 Lower_{0.0};
   Vec3 Upper_{0.0};
 };
+
+template <class Visit> void Scene::ForEachTriangle(Visit&& visit) const
+{
+  std::size_t first = 0;
+  for (const SurfaceMesh* mesh : {&this->Surfaces(), &this->EmitterMesh()})
+  {
+    for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
+    {
+      const auto& triangle = mesh->Triangles[i];
+      visit(first + mesh->TriangleCell[i], std::array<Vec3, 3>{mesh->Points[triangle[0]],
+                                             mesh->Points[triangle[1]], mesh->Points[triangle[2]]});
+    }
+    first += mesh->CellReflectance.size();
+  }
+}
 
 } // namespace smokevis

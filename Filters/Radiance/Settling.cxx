@@ -124,7 +124,7 @@ BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resol
     }
     // Blocks count by how well they are known, those known better than asked for all alike.
     const double weight =
-      1.0 / std::max(VarianceOf(drifts, MeanOf(drifts)), resolution * resolution);
+      1.0 / std::max(VarianceOf(drifts, sum / Batches), resolution * resolution);
     weights += weight;
     square += weight * (sum * sum - squares) / (Batches * (Batches - 1.0));
     for (std::size_t batch = 0; batch < drifts.size(); ++batch)

@@ -35,7 +35,7 @@ Sums Through(const GlobalLines& lines, const Box& body)
       const GlobalLines::Line line = these.Get(i);
       double begin = 0.0;
       double end = line.Length;
-      if (body.Clip(line.Origin, line.Direction, begin, end))
+      if (body.Clip(line.Origin, line.Direction, 1.0 / line.Direction, begin, end))
       {
         sums.Meetings += 1.0 / draws;
         chords += line.Weight * (end - begin);
@@ -71,7 +71,7 @@ TEST(GlobalLines, ChordsFillEveryBody)
     for (const Box& body : {inSmoke, outside})
     {
       const bool inside = smoke.Contains(body.Lower);
-      const double least = lines.Meetings(body.Area(), inside);
+      const double least = lines.Meetings(body.Surface(), inside);
       const double meetings = Through(lines, body).Meetings;
       const double error = std::sqrt(least / 400.0);
       EXPECT_GT(meetings, least - 4.0 * error);

@@ -1,0 +1,54 @@
+// Boxes with their edges along the axes.
+#pragma once
+
+#include "Types.h"
+
+#include <algorithm>
+
+namespace smokevis
+{
+
+/// Surface of a box with edges of these lengths [m2].
+inline double BoxSurface(const Vec3& size)
+{
+  return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+struct Box
+{
+  Vec3 Lower{0.0};
+  Vec3 Upper{0.0};
+
+  double Surface() const { return BoxSurface(this->Upper - this->Lower); }
+
+  bool Contains(const Vec3& point) const
+  {
+    return glm::all(glm::greaterThanEqual(point, this->Lower)) &&
+           glm::all(glm::lessThanEqual(point, this->Upper));
+  }
+
+  /// Shortens a stretch of a line to what lies in the box; returns whether anything does.
+  /// @param inverse 1 / direction
+  bool Clip(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin,
+    double& end) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (direction[axis] == 0.0)
+      {
+        if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
+        {
+          return false;
+        }
+        continue;
+      }
+      const double low = (this->Lower[axis] - origin[axis]) * inverse[axis];
+      const double high = (this->Upper[axis] - origin[axis]) * inverse[axis];
+      begin = std::max(begin, std::min(low, high));
+      end = std::min(end, std::max(low, high));
+    }
+    return end > begin;
+  }
+};
+
+} // namespace smokevis
