@@ -103,22 +103,34 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
+  /// @param extinction mean along the way to the centre, if known [1/m]
+  /// @param weak whether a few percent of this light's fluence do not matter beside other lights'
   Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
-    bool clear, std::optional<double> extinction) const;
+    bool clear, std::optional<double> extinction, bool weak) const;
   /// Largest optical depth along an edge of a box, of any band.
   double BoxDepth(const Vec3& centre, const Vec3& size) const;
   Spectrum GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size, bool clear,
     std::optional<double> known) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
-  /// Whether a light adds next to nothing to what all cells of a block already hold.
+  /// What the corners of a block of cells tell of the ways to a light from the cells between.
+  struct Told
+  {
+    /// Mean extinctions [1/m].
+    std::array<double, 8> Ways{};
+    /// Bound of what the light adds to any cell, over what that cell already holds, times the
+    /// number of lights.
+    double Share = 0.0;
+  };
+  /// Largest share that a light may add to what any cell of a block already holds; a bound.
   /// @param ways mean extinctions along the ways to the block's corners
-  bool Negligible(const LightGroup& root, const Medium::Block& block,
+  double LargestShare(const LightGroup& root, const Medium::Block& block,
     const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const;
   /// Mean extinction between the cells of a block and a light: linear between the corners of the
-  /// block; none where that does not hold.
-  std::optional<std::array<double, 8>> BlockWays(
-    const LightGroup& root, const Medium::Block& block) const;
+  /// block; none where that does not hold. The less a light may add to what the cells hold, the
+  /// rougher its ways may be told.
+  std::optional<Told> BlockWays(
+    const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 
