@@ -68,6 +68,18 @@ struct Equiangular
     this->Width = std::max({aside, 0.5 * light.Radius, 1e-9});
   }
 
+  struct Place
+  {
+    /// Along the ray, and the length that it stands for.
+    double Distance, Step;
+  };
+  /// The place at a share of the angle between two distances.
+  Place At(double from, double to, double share) const
+  {
+    const double low = std::atan((from - this->Middle) / this->Width);
+    const double high = std::atan((to - this->Middle) / this->Width);
+    return this->Between(low, high, from, to, share);
+  }
   /// Calls visit(distance along the ray, step) for the places of a rule between two distances.
   template <class Visit>
   void ForEach(double from, double to, double extinction, Visit&& visit) const
@@ -77,10 +89,17 @@ struct Equiangular
     const GaussRule& rule = RuleFor(high - low, extinction * (to - from));
     for (int i = 0; i < rule.Count; ++i)
     {
-      const double tangent = std::tan(low + (high - low) * rule.Nodes[i]);
-      const double distance = std::clamp(this->Middle + this->Width * tangent, from, to);
-      visit(distance, rule.Weights[i] * (high - low) * this->Width * (1.0 + tangent * tangent));
+      const Place place = this->Between(low, high, from, to, rule.Nodes[i]);
+      visit(place.Distance, rule.Weights[i] * place.Step);
     }
+  }
+
+private:
+  Place Between(double low, double high, double from, double to, double share) const
+  {
+    const double tangent = std::tan(low + (high - low) * share);
+    return {std::clamp(this->Middle + this->Width * tangent, from, to),
+      (high - low) * this->Width * (1.0 + tangent * tangent)};
   }
 };
 
@@ -320,16 +339,17 @@ int DirectField::Pieces(std::int64_t cell, double length, int band) const
   return std::clamp(static_cast<int>(std::ceil(depth / PieceDepth)), 1, MostPieces);
 }
 
-double DirectField::PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
-  double begin, double end, int band) const
+double DirectField::PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
+  double begin, double end, double place, int band) const
 {
   const double smooth = this->Smooth(cell, origin + 0.5 * (begin + end) * direction, band);
-  return this->Near(cell) ? smooth + this->NearMean(cell, origin, direction, begin, end, band)
-                          : smooth;
+  return this->Near(cell)
+           ? smooth + this->NearFluence(cell, origin, direction, begin, end, place, band)
+           : smooth;
 }
 
-double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
-  double begin, double end, int band) const
+double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
+  double begin, double end, double place, int band) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
@@ -343,9 +363,8 @@ double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& 
       continue;
     }
     const Equiangular places(lights.Groups()[lights.Lights()[near.Light]], origin, direction);
-    places.ForEach(begin, end, 0.0,
-      [&](double distance, double step)
-      { sum += step / (end - begin) * field->Fluence(origin + distance * direction, band); });
+    const auto [distance, step] = places.At(begin, end, place);
+    sum += step / (end - begin) * field->Fluence(origin + distance * direction, band);
   }
   return sum;
 }

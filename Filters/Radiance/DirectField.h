@@ -33,33 +33,36 @@ public:
     return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
                                       : 0.0;
   }
-  /// Calls visit(length, fluence) for the parts that a piece of a ray inside a cell is cut into,
-  /// with the mean direct fluence of each [lx]; the fluence is flat enough in each.
+  /// Whether the direct fluence varies inside a cell by more than a flat source may.
+  bool Varies(std::int64_t cell, int band) const
+  {
+    return !this->Varies_.empty() && this->Varies_[band * this->Cells_ + cell];
+  }
+  /// Calls visit(length, fluence) for the parts that a piece of a ray is cut into inside a cell
+  /// where the direct fluence varies, with an estimate of the mean direct fluence of each [lx].
+  /// @param place where in each part the near lights' fluence is taken, 0 to 1; the mean over
+  /// uniform places is theirs
   template <class Visit>
   void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band, Visit&& visit) const
+    double end, double place, int band, Visit&& visit) const
   {
-    const std::size_t index = band * this->Cells_ + cell;
-    if (this->Varies_.empty() || !this->Varies_[index])
-    {
-      visit(end - begin, this->Field_.DirectFluence[index]);
-      return;
-    }
     const int parts = this->Pieces(cell, end - begin, band);
     for (int part = 0; part < parts; ++part)
     {
       const double from = begin + (end - begin) * part / parts;
       const double to = begin + (end - begin) * (part + 1) / parts;
-      visit(to - from, this->PieceMean(cell, origin, direction, from, to, band));
+      visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
     }
   }
   bool Near(std::int64_t cell) const
   {
     return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
   }
-  /// Mean, along a piece of a ray inside a cell, of the fluence of the lights near to it [lx].
-  double NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band) const;
+  /// Fluence of the lights near to a cell at one place of a piece of a ray inside it, so weighted
+  /// that its mean over uniform places is that along the piece [lx].
+  /// @param place 0 to 1
+  double NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, double place, int band) const;
   /// Light of the near lights that such a piece scatters towards its beginning, before what lies
   /// ahead of the piece dims it [cd/m2].
   /// @param extinction of the cell in the band [1/m]
@@ -90,8 +93,8 @@ private:
   void FindVarying();
   /// Parts that a piece of a ray of some length in a cell is cut into.
   int Pieces(std::int64_t cell, double length, int band) const;
-  double PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band) const;
+  double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, double place, int band) const;
   /// Returns what the lights that are not near leave of the direct fluence in a cell.
   Spectrum MeasureNearCell(std::int64_t cell, NearCell& near) const;
   /// Fluence of the lights that are not in the list.

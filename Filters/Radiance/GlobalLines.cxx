@@ -71,7 +71,7 @@ double GlobalLines::Meetings(double area, bool inside) const
 }
 
 GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key)
-    : Lines_(lines), Points_(key), InnerPoints_(Mix(key))
+    : Lines_(lines), Key_(key), Points_(key), InnerPoints_(Mix(key))
 {
 }
 
@@ -99,6 +99,7 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const auto [begin, end] = stretch(lines.Scene_);
   line.Origin += begin * line.Direction;
   line.Length = end - begin;
+  line.Random = ToUnit(Mix(this->Key_ ^ Mix(index)));
   line.Weight = meetsInner ? lines.InnerWeight_ : lines.Weight_;
   return line;
 }

@@ -24,6 +24,8 @@ public:
     double Length;
     /// Power that it carries in each direction for each unit of its radiance [m2 sr].
     double Weight;
+    /// A uniform random number of its own.
+    double Random;
   };
 
   GlobalLines(const Box& scene, std::size_t lines);
@@ -50,6 +52,7 @@ public:
 
   private:
     const GlobalLines& Lines_;
+    std::uint64_t Key_;
     EvenPoints Points_, InnerPoints_;
   };
 

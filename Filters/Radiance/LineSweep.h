@@ -33,8 +33,16 @@ struct BatchState
 /// the lines; one a thread.
 struct LineTallies
 {
-  std::vector<float> Fluence, Illuminance;
-  std::vector<float> ExpectedFluence, ExpectedIlluminance;
+  /// All that a line needs of a cell: it lies together, since lines meet cells far apart.
+  struct Cell
+  {
+    /// Luminance of what the cell sends on and emits [cd/m2], and its extinction coefficient [1/m].
+    float Source, Extinction;
+    float ExpectedFluence, Fluence;
+  };
+  std::vector<Cell> Cells;
+  std::vector<float> Illuminance;
+  std::vector<float> ExpectedIlluminance;
   /// Power that left the scene, not a difference [lm].
   double Escaped = 0.0;
 };
@@ -72,8 +80,9 @@ public:
 private:
   struct Buffers;
 
-  /// Expects the light that is known so far of the cells and patches where that tells something.
-  void Expect(const BatchState& state, LineTallies& tallies) const;
+  /// Empties the tallies, and expects the light that is known so far of the cells and patches where
+  /// that tells something.
+  void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
     Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
