@@ -62,6 +62,18 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
   this->InnerWeight_ = glm::half_pi<double>() / this->Meetings(1.0, true);
 }
 
+GlobalLines GlobalLines::Thinned(double share) const
+{
+  const auto part = [share](std::size_t lines)
+  { return static_cast<std::size_t>(std::ceil(share * static_cast<double>(lines))); };
+  GlobalLines thinned(this->Scene_, part(this->Lines_));
+  if (this->Inner_)
+  {
+    thinned.AddInner(*this->Inner_, part(this->InnerLines_));
+  }
+  return thinned;
+}
+
 double GlobalLines::Meetings(double area, bool inside) const
 {
   const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Surface();

@@ -33,6 +33,9 @@ public:
   /// @param lines through it, beside those through the scene
   void AddInner(const Box& inner, std::size_t lines);
 
+  /// The same with a share of the lines, each of which counts for more.
+  GlobalLines Thinned(double share) const;
+
   std::size_t Count() const { return this->Lines_ + this->InnerLines_; }
   const Box& Outer() const { return this->Scene_; }
   const std::optional<Box>& Inner() const { return this->Inner_; }

@@ -144,7 +144,7 @@ LineSweep::LineSweep(
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(LinesFor(scene, band))
+      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
@@ -342,7 +342,7 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   // itself: its noise would come back larger.
   const bool counted = state.Counted > 0;
   const float scale = counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F;
-  const auto sweeps = static_cast<float>(std::max(1, state.Counted));
+  const float sweeps = counted ? static_cast<float>(state.Counted) : state.Share;
   const std::vector<float>& fluence = counted ? state.FluenceSum : state.Fluence;
   tallies.Cells.resize(fluence.size());
   for (std::size_t cell = 0; cell < fluence.size(); ++cell)
@@ -364,13 +364,14 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   tallies.Escaped = 0.0;
 }
 
-void LineSweep::Run(
-  BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const
+void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
+  const Progress& progress) const
 {
   this->Prepare(state, tallies);
-  const GlobalLines::Draw draw(this->Lines_, key);
+  const GlobalLines& lines = thin ? this->ThinLines_ : this->Lines_;
+  const GlobalLines::Draw draw(lines, key);
   Buffers buffers;
-  for (std::size_t line = 0; line < this->Lines_.Count(); ++line)
+  for (std::size_t line = 0; line < lines.Count(); ++line)
   {
     if (line % 256 == 0 && progress.ShouldStop())
     {
@@ -395,6 +396,7 @@ void LineSweep::Run(
     }
     state.IlluminanceSum[side] += state.Illuminance[side];
   }
+  state.Share = thin ? static_cast<float>(ThinShare) : 1.0F;
   state.EscapedSum += tallies.Escaped;
   ++state.Counted;
 }

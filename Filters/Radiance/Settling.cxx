@@ -41,6 +41,7 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 BlockMeans::BlockMeans(
   const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
+    : Counted_(batches.front().Counted)
 {
   // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little.
   const Medium& smoke = scene.Smoke();
@@ -96,6 +97,23 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
     }
     this->Blocks_.push_back(std::move(block));
   }
+}
+
+BlockMeans BlockMeans::Since(const BlockMeans& earlier) const
+{
+  BlockMeans since = *this;
+  since.Counted_ = this->Counted_ - earlier.Counted_;
+  for (std::size_t index = 0; index < since.Blocks_.size(); ++index)
+  {
+    for (std::size_t batch = 0; batch < since.Blocks_[index].Multiple.size(); ++batch)
+    {
+      since.Blocks_[index].Multiple[batch] =
+        (this->Counted_ * this->Blocks_[index].Multiple[batch] -
+          earlier.Counted_ * earlier.Blocks_[index].Multiple[batch]) /
+        since.Counted_;
+    }
+  }
+  return since;
 }
 
 BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
