@@ -5,7 +5,7 @@
 #include "CellShape.h"
 #include "DirectLight.h"
 #include "LightField.h"
-#include "NearField.h"
+#include "NearLights.h"
 #include "OpenFaces.h"
 
 #include <memory>
@@ -16,13 +16,14 @@ namespace smokevis
 
 class Scene;
 
-/// Of every cell, a light within a few cell edges counts as near: its fluence is too steep to be
-/// interpolated between cells.
+/// What the lights near to a cell add is taken at each place, that of all others from cell means.
 class DirectField
 {
 public:
   /// @param field holds the direct fluence of all cells; must outlive this
-  DirectField(const Scene& scene, const LightField& field);
+  /// @param lights which are near to cells
+  DirectField(
+    const Scene& scene, const LightField& field, std::shared_ptr<const NearLights> lights);
 
   const OpenFaces& Open() const { return this->Open_; }
 
@@ -54,10 +55,7 @@ public:
       visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
     }
   }
-  bool Near(std::int64_t cell) const
-  {
-    return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
-  }
+  bool Near(std::int64_t cell) const { return this->Lights_->Place(cell) >= 0; }
   /// Fluence of the lights near to a cell at one place of a piece of a ray inside it, so weighted
   /// that its mean over uniform places is that along the piece [lx].
   /// @param place 0 to 1
@@ -70,35 +68,14 @@ public:
     double end, double extinction, int band) const;
 
 private:
-  struct NearLight
-  {
-    std::uint32_t Light = 0;
-    /// Whether the whole cell sees the light unhidden.
-    bool Clear = false;
-    /// Over the cell, where lines need it: where there are shadows or no lattice [lx].
-    Spectrum Mean{};
-  };
-  struct NearCell
-  {
-    std::vector<NearLight> Lights;
-    bool Close = false;
-  };
-
-  /// Whether a light is so close to a cell that its fluence varies much inside it.
-  bool Close(std::int64_t cell) const
-  {
-    return this->Near(cell) && this->NearCells_[this->NearIndex_[cell]].Close;
-  }
-  void FindNearCells();
+  void MeasureNearCells();
   void FindVarying();
   /// Parts that a piece of a ray of some length in a cell is cut into.
   int Pieces(std::int64_t cell, double length, int band) const;
   double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band) const;
-  /// Returns what the lights that are not near leave of the direct fluence in a cell.
-  Spectrum MeasureNearCell(std::int64_t cell, NearCell& near) const;
-  /// Fluence of the lights that are not in the list.
-  Spectrum OthersFluence(std::int64_t cell, const NearCell& near) const;
+  /// What the lights that are not near to a cell add to its direct fluence.
+  Spectrum OthersFluence(const NearLights::Cell& near) const;
 
   const Scene& Scene_;
   const LightField& Field_;
@@ -108,11 +85,10 @@ private:
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;
   std::vector<CellShape> Shapes_;
-  /// Of each cell, its place among NearCells_, or -1; empty: no smoke scatters.
-  std::vector<std::int32_t> NearIndex_;
-  std::vector<NearCell> NearCells_;
-  /// Of each light that is near to a cell.
-  std::vector<std::unique_ptr<NearField>> NearFields_;
+  std::shared_ptr<const NearLights> Lights_;
+  /// Of each cell that lights are near to and each such light, its fluence over the cell where
+  /// lines need it: where there are shadows or no lattice [lx].
+  std::vector<std::vector<Spectrum>> NearMeans_;
   /// Whether the fluence varies inside a cell by more than a flat source may: [band][cell].
   std::vector<bool> Varies_;
 };

@@ -10,6 +10,8 @@
 namespace smokevis
 {
 
+class NearField;
+class NearLights;
 class Scene;
 struct LightGroup;
 
@@ -18,7 +20,11 @@ struct LightGroup;
 class DirectLight
 {
 public:
-  explicit DirectLight(const Scene& scene) : Scene_(scene) {}
+  /// @param near what is known of lights near to cells already; must outlive this
+  explicit DirectLight(const Scene& scene, const NearLights* near = nullptr)
+      : Scene_(scene), Near_(near)
+  {
+  }
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
@@ -103,14 +109,25 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
-  /// @param extinction mean along the way to the centre, if known [1/m]
-  /// @param weak whether a few percent of this light's fluence do not matter beside other lights'
-  Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
-    bool clear, std::optional<double> extinction, bool weak) const;
+  /// A light as a box of smoke sees it.
+  struct BoxLight
+  {
+    std::size_t Index;
+    /// Nothing hides it from the box.
+    bool Clear = false;
+    /// Mean along the way to the centre of the box, if known [1/m].
+    std::optional<double> Extinction{};
+    /// A few percent of its fluence do not matter beside other lights'.
+    bool Weak = false;
+    /// Its fluence around it, if kept.
+    const NearField* Near = nullptr;
+  };
+  Spectrum Fluence(const BoxLight& light, const Vec3& point) const;
+  Spectrum BoxFluence(
+    const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
   /// Largest optical depth along an edge of a box, of any band.
   double BoxDepth(const Vec3& centre, const Vec3& size) const;
-  Spectrum GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size, bool clear,
-    std::optional<double> known) const;
+  Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
   /// What the corners of a block of cells tell of the ways to a light from the cells between.
@@ -135,6 +152,7 @@ private:
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;
+  const NearLights* Near_;
 };
 
 } // namespace smokevis

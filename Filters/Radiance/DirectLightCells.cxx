@@ -2,6 +2,7 @@
 #include "DirectLight.h"
 
 #include "GaussNodes.h"
+#include "NearLights.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -142,11 +143,24 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  const double distance = root.Distance(centre);
+  BoxLight box{light};
+  const int near = this->Near_ ? this->Near_->Place(cell) : -1;
+  if (near >= 0)
+  {
+    const std::vector<NearLights::Light>& lightsThere = this->Near_->Cells()[near].Lights;
+    const auto found = std::find_if(lightsThere.begin(), lightsThere.end(),
+      [light](const NearLights::Light& there) { return there.Index == light; });
+    if (found != lightsThere.end())
+    {
+      box.Clear = found->Clear;
+      box.Near = found->Clear ? this->Near_->Field(light) : nullptr;
+      return this->BoxFluence(box, centre, size, BoxSplits);
+    }
+  }
   const bool splits =
-    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
-  return this->BoxFluence(
-    light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt, false);
+    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
+  box.Clear = splits && this->Clear(light, cell);
+  return this->BoxFluence(box, centre, size, BoxSplits);
 }
 
 double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
@@ -305,8 +319,9 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
       {
         const std::int64_t cell = smoke.Cell(block, place);
         const Spectrum value =
-          told ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
-                   Trilinear(told->Ways, BlockShare(block, place)), told->Share < WeakShare)
+          told ? this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
+                                    told->Share < WeakShare},
+                   smoke.CellCentre(cell), smoke.CellSize(cell), 0)
                : this->CellFluence(light, cell);
         work.Told += told ? 1 : 0;
         for (int band = 0; band < this->Scene_.Bands(); ++band)
@@ -319,11 +334,27 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   return work;
 }
 
-Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size,
-  int splits, bool clear, std::optional<double> known, bool weak) const
+Spectrum DirectLight::Fluence(const BoxLight& light, const Vec3& point) const
+{
+  if (light.Near && light.Near->Smooth(point))
+  {
+    Spectrum value{};
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      value[band] = light.Near->Fluence(point, band);
+    }
+    return value;
+  }
+  return light.Extinction ? this->Fluence(light.Index,
+                              Receiver{point, std::nullopt, light.Clear, {}, light.Extinction})
+                          : this->Fluence(light.Index, point, light.Clear);
+}
+
+Spectrum DirectLight::BoxFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
@@ -339,8 +370,7 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
     for (int part = 0; part < 8; ++part)
     {
       const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
-      const Spectrum value =
-        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear, known, weak);
+      const Spectrum value = this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += 0.125 * value[band];
@@ -366,9 +396,10 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
     return {};
   }
   const double depth = this->BoxDepth(centre, size);
-  if (!close && !weak && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
+  if (!close && !light.Weak && depth < DeepestGauss &&
+      (depth > FlatDepth || edge > FlatRatio * distance))
   {
-    return this->GaussFluence(light, centre, size, clear, known);
+    return this->GaussFluence(light, centre, size);
   }
   // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own,
   // where the rest of the light's variation is taken.
@@ -381,8 +412,7 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
   {
     place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
   }
-  Spectrum value = known ? this->Fluence(light, Receiver{place, std::nullopt, clear, {}, known})
-                         : this->Fluence(light, place, clear);
+  Spectrum value = this->Fluence(light, place);
   double curvature = 1.0;
   if (!close)
   {
@@ -423,11 +453,11 @@ double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
                       std::max({size.x, size.y, size.z});
 }
 
-Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size,
-  bool clear, std::optional<double> known) const
+Spectrum DirectLight::GaussFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const std::vector<GaussPlace> places =
@@ -437,7 +467,7 @@ Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const 
   {
     for (const GaussPlace& place : places)
     {
-      const Spectrum value = this->Fluence(light, place.Point, clear);
+      const Spectrum value = this->Fluence(light, place.Point);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += place.Weight * value[band];
@@ -446,7 +476,7 @@ Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const 
     return sum;
   }
   // Ways to the places in the box differ from the one to its centre inside the box alone.
-  Receiver receiver{centre, std::nullopt, clear, {}, known};
+  Receiver receiver{centre, std::nullopt, light.Clear, {}, light.Extinction};
   const Path path = this->SamplePath(root, receiver);
   if (path.Visible == 0.0)
   {
@@ -464,7 +494,7 @@ Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const 
     // That the light is no point matters as much at one place of the box as at another: places
     // differ from the centre as they would before a point.
     receiver.Extinction = path.MeanExtinction;
-    sum = this->Fluence(light, receiver);
+    sum = this->Fluence(light.Index, receiver);
     const double atCentre = PointLight(root, from);
     Spectrum mean{};
     for (const GaussPlace& place : places)
@@ -488,7 +518,7 @@ Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const 
     const double distance = glm::length(root.Centre - place.Point);
     receiver.Point = place.Point;
     receiver.Extinction = depthAt(distance) / distance;
-    const Spectrum value = this->Fluence(light, receiver);
+    const Spectrum value = this->Fluence(light.Index, receiver);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
       sum[band] += path.Visible * place.Weight * value[band];

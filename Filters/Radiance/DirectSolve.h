@@ -8,6 +8,8 @@
 namespace smokevis
 {
 
+class NearLights;
+
 /// Works out the light that comes straight from the emitters, in parallel: blocks of cells and
 /// patches do not depend on each other.
 class DirectSolve
@@ -15,8 +17,9 @@ class DirectSolve
 public:
   /// @param share of the progress bar, from 0, that this takes
   /// @param field receives the direct fluence and illuminance, and what was left out
+  /// @param near lights near to cells
   DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team, Progress& progress,
-    tbb::task_arena& arena, double share, LightField& field);
+    tbb::task_arena& arena, double share, const NearLights& near, LightField& field);
 
   /// Throws Error when it is stopped.
   void Cells();
@@ -36,6 +39,7 @@ private:
   Progress& Progress_;
   tbb::task_arena& Arena_;
   double Share_;
+  const NearLights& Near_;
   LightField& Field_;
 };
 

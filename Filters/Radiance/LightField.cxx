@@ -89,6 +89,7 @@ private:
   tbb::task_arena Arena_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
+  std::shared_ptr<const NearLights> Near_;
   /// Made when a band needs it, once the direct fluence is known.
   std::unique_ptr<DirectField> Inside_;
 };
@@ -211,8 +212,8 @@ const DirectField& Solver::Inside()
 {
   if (!this->Inside_)
   {
-    this->Arena_.execute(
-      [this] { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_); });
+    this->Arena_.execute([this]
+      { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_, this->Near_); });
   }
   return *this->Inside_;
 }
@@ -367,8 +368,9 @@ LightField Solver::Run()
   {
     throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
   }
+  this->Arena_.execute([this] { this->Near_ = std::make_shared<const NearLights>(this->Scene_); });
   DirectSolve direct(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
-    DirectShare, this->Field_);
+    DirectShare, *this->Near_, this->Field_);
   direct.Cells();
   direct.Patches();
   for (int band = 0; band < this->Field_.Bands; ++band)

@@ -121,7 +121,8 @@ TEST_F(DirectFieldTest, CellMeans)
 // What a piece of a ray into the plate scatters back, against 2000 points along it.
 TEST_F(DirectFieldTest, VeilBeforeThePlate)
 {
-  const DirectField inside(this->TheScene, this->Field);
+  const DirectField inside(
+    this->TheScene, this->Field, std::make_shared<const NearLights>(this->TheScene));
   const DirectLight direct(this->TheScene);
   const Vec3 origin(1.5, 1.02, 1.0);
   const Vec3 direction = glm::normalize(Vec3(1.0, 0.03, 0.05));
@@ -162,7 +163,8 @@ TEST_F(DirectFieldTest, VeilBeforeThePlate)
 // The only light is near: nothing is left for the smooth part, in any cell around it.
 TEST_F(DirectFieldTest, NothingIsCountedTwice)
 {
-  const DirectField inside(this->TheScene, this->Field);
+  const DirectField inside(
+    this->TheScene, this->Field, std::make_shared<const NearLights>(this->TheScene));
   for (std::int64_t cell = 0; cell < static_cast<std::int64_t>(this->Field.Cells); ++cell)
   {
     if (inside.Near(cell))
