@@ -153,7 +153,10 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
     if (found != lightsThere.end())
     {
       box.Clear = found->Clear;
-      box.Near = found->Clear ? this->Near_->Field(light) : nullptr;
+      // In the thickest cells light does not follow what is interpolated.
+      box.Near = found->Clear && this->BoxDepth(centre, size) < DeepestGauss
+                   ? this->Near_->Field(light)
+                   : nullptr;
       return this->BoxFluence(box, centre, size, BoxSplits);
     }
   }

@@ -228,7 +228,7 @@ double NearField::Fluence(const Vec3& point, int band) const
       return even * std::exp(logarithm - this->EvenDepth(place, band));
     }
   }
-  return even * this->Linear(level, place, band) * std::exp(-this->EvenDepth(place, band));
+  return even * this->Linear(level, place, band);
 }
 
 double NearField::Quadratic(const Level& level, const Vec3& place, int band) const
@@ -244,18 +244,24 @@ double NearField::Quadratic(const Level& level, const Vec3& place, int band) con
     weights[axis] = {0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)};
   }
   double sum = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
   for (int k = 0; k < 3; ++k)
   {
     for (int j = 0; j < 3; ++j)
     {
       for (int i = 0; i < 3; ++i)
       {
-        sum += weights[0][i] * weights[1][j] * weights[2][k] *
-               this->NodeValue(level, {first[0] + i, first[1] + j, first[2] + k}, band);
+        const double value =
+          this->NodeValue(level, {first[0] + i, first[1] + j, first[2] + k}, band);
+        sum += weights[0][i] * weights[1][j] * weights[2][k] * value;
+        least = std::min(least, value);
+        most = std::max(most, value);
       }
     }
   }
-  return sum;
+  // Where smoke changes from cell to cell by much, a quadratic would overshoot.
+  return std::isfinite(least) ? std::clamp(sum, least, most) : least;
 }
 
 double NearField::Linear(const Level& level, const Vec3& place, int band) const
@@ -268,7 +274,8 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
     node[axis] = std::clamp(static_cast<int>(at), 0, level.Count[axis] - 2);
     share[axis] = std::clamp(at - node[axis], 0.0, 1.0);
   }
-  double logarithm = 0.0;
+  const double depth = this->EvenDepth(place, band);
+  double logarithm = -depth;
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
@@ -282,7 +289,7 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
     }
     const double value = this->NodeValue(level, other, band);
     logarithm += weight * value;
-    sum += weight * std::exp(value);
+    sum += weight * std::exp(value - depth);
   }
   return std::isfinite(logarithm) ? std::exp(logarithm) : sum;
 }

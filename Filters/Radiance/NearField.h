@@ -38,7 +38,7 @@ private:
   /// The same at a place, by the quadratic through the nodes around it; not finite where it is 0 at
   /// one of them.
   double Quadratic(const Level& level, const Vec3& place, int band) const;
-  /// The light's fluence at a place over the closed form's, by linear interpolation.
+  /// The light's fluence at a place over that of the plate without smoke, by linear interpolation.
   double Linear(const Level& level, const Vec3& place, int band) const;
   /// Place relative to the plate's centre: along its edges and along its normal.
   Vec3 ToPlate(const Vec3& point) const;

@@ -43,15 +43,19 @@ BlockMeans::BlockMeans(
   const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
     : Counted_(batches.front().Counted)
 {
-  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little.
+  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little,
+  // and so does that in the air where nothing scatters at all.
   const Medium& smoke = scene.Smoke();
+  const double least = scene.Albedo() * smoke.MaximumExtinction() > 0.0
+                         ? 0.0
+                         : DarkShare / glm::length(scene.Upper() - scene.Lower());
   std::vector<float> weights(field.Cells);
   for (std::size_t cell = 0; cell < field.Cells; ++cell)
   {
     const Vec3 size = smoke.CellSize(static_cast<std::int64_t>(cell));
-    weights[cell] =
-      static_cast<float>(scene.Albedo() * smoke.Extinction(static_cast<std::int64_t>(cell)) *
-                         size.x * size.y * size.z);
+    weights[cell] = static_cast<float>(
+      std::max(least, scene.Albedo() * smoke.Extinction(static_cast<std::int64_t>(cell))) * size.x *
+      size.y * size.z);
   }
   this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
     weights);
