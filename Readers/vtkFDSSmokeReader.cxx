@@ -1,6 +1,5 @@
 #include "vtkFDSSmokeReader.h"
 
-#include "FiniteProperty.h"
 #include "vtkFDSDeviceTable.h"
 #include "vtkFDSPieces.h"
 #include "vtkFDSRun.h"
@@ -10,6 +9,7 @@
 #include "Errors.h"
 #include "KeptOutput.h"
 #include "PrintableText.h"
+#include "PropertyChecks.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -264,7 +264,7 @@ int vtkFDSSmokeReader::RequestData(
     return 0;
   }
   const int wanted = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
-  try
+  const auto work = [&]
   {
     smokevis::FDSRun& run = this->Internals->Run;
     this->Warn(run.NotSaidYet(run.Index().Warnings));
@@ -273,28 +273,10 @@ int vtkFDSSmokeReader::RequestData(
       if (wanted < 0 || wanted == port)
       {
         this->ReadPort(port, outputVector->GetInformationObject(port));
-        kept.Keep(outputVector, port);
       }
     }
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      for (int port = 0; port < NumberOfPorts; ++port)
-      {
-        if (wanted < 0 || wanted == port)
-        {
-          kept.Restore(this, outputVector, port);
-        }
-      }
-      return 1;
-    }
-    kept.Clear();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+  };
+  return kept.Produce(this, outputVector, work, wanted);
 }
 
 //------------------------------------------------------------------------------------------------
