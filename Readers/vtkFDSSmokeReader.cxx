@@ -283,13 +283,25 @@ int vtkFDSSmokeReader::RequestData(
 void vtkFDSSmokeReader::ReadBlocks(
   vtkInformation* outInfo, const char* what, smokevis::FDSFileBlocks& files)
 {
-  const smokevis::FDSFileBlocks::Report report = files.Publish(this->SceneTime(outInfo),
+  const std::string leftOut = files.Publish(this->SceneTime(outInfo),
     static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation), outInfo);
-  if (!report.LeftOut.empty())
+  if (!leftOut.empty())
   {
-    vtkWarningMacro(<< "Some " << what << " are left out: " << report.LeftOut);
+    vtkWarningMacro(<< "Some " << what << " are left out: " << leftOut);
   }
-  this->Warn(this->Internals->Run.NotSaidYet(report.Damages));
+  this->WarnOfGrowth(outInfo);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::WarnOfGrowth(vtkInformation* outInfo)
+{
+  smokevis::FDSRun& run = this->Internals->Run;
+  const std::string text = run.NotWhole(
+    smokevis::FDSPieces(run.Index(), outInfo), this->ReadPlaneSlices, this->ReadBoundary);
+  if (!text.empty())
+  {
+    this->Warn({text});
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -333,6 +345,7 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   {
     this->Warn(run.NotSaidYet(run.Flames()->Warnings()));
   }
+  this->WarnOfGrowth(outInfo);
   const smokevis::SmvFile& index = run.Index();
   const bool flames = run.Flames() && run.Flames()->HasData();
   smokevis::SmokeRequest request;
@@ -374,4 +387,5 @@ void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
   }
   vtkTable* const devices = vtkTable::SafeDownCast(outInfo->Get(vtkDataObject::DATA_OBJECT()));
   this->Warn(smokevis::ReadDeviceTable(index, devices));
+  this->WarnOfGrowth(outInfo);
 }
