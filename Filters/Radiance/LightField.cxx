@@ -36,10 +36,7 @@ constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
-constexpr double DriftShare = 1.0;
-/// Share of the tolerance that the upper bound of a drift may be where only noise is left of it:
-/// the mean over two windows has half the noise of their difference.
-constexpr double NoiseShare = 2.0;
+constexpr double DriftShare = 0.7;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
 /// been, and over 200 seeds the bars hold with this.
@@ -177,8 +174,7 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
       const BlockMeans::Drift drift =
         (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Options_.Tolerance);
       drifts = drift.LowerBound > 0.0;
-      tolerable = drift.UpperBound < limit || (over && !drifts && drift.Estimate < limit &&
-                                                drift.UpperBound < NoiseShare * limit);
+      tolerable = drift.UpperBound < limit;
       if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
       {
         return done;
