@@ -45,11 +45,16 @@ private:
     bool Lit = false;
   };
 
+  /// Which block a value belongs to, and what it counts there.
+  struct Share
+  {
+    std::size_t Block = 0;
+    double Weight = 0.0;
+  };
   void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
-    const float* direct, const std::vector<float>& weights);
+    const float* direct, const std::vector<Share>& shares);
 
-  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches; all blocks
-  /// of one kind span about as many values.
+  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
   std::vector<Block> Blocks_;
   /// Sweeps that they are means of.
   int Counted_ = 0;
