@@ -30,16 +30,18 @@ public:
 class KeptOutput
 {
 public:
-  /// For RequestData: does the work that fills all outputs, keeps them and returns 1. Where the
+  /// For RequestData: does the work that fills the outputs, keeps them and returns 1. Where the
   /// work was stopped, here or upstream, what was kept comes back. Any other error is reported,
   /// once, and leaves the outputs empty; then 0 is returned.
-  int Produce(
-    vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<void()>& work)
+  /// @param wanted the port that the work fills; the others stay as they are. -1: all.
+  int Produce(vtkAlgorithm* algorithm, vtkInformationVector* outputs,
+    const std::function<void()>& work, int wanted = -1)
   {
-    const int ports = outputs->GetNumberOfInformationObjects();
+    const int first = std::max(wanted, 0);
+    const int end = wanted < 0 ? outputs->GetNumberOfInformationObjects() : wanted + 1;
     const auto restore = [&]
     {
-      for (int port = 0; port < ports; ++port)
+      for (int port = first; port < end; ++port)
       {
         this->Restore(algorithm, outputs, port);
       }
@@ -48,7 +50,7 @@ public:
     try
     {
       work();
-      for (int port = 0; port < ports; ++port)
+      for (int port = first; port < end; ++port)
       {
         this->Keep(outputs, port);
       }
@@ -65,37 +67,12 @@ public:
         return restore();
       }
       this->Clear();
-      for (int port = 0; port < ports; ++port)
+      for (int port = first; port < end; ++port)
       {
         vtkDataObject::GetData(outputs, port)->Initialize();
       }
       vtkErrorWithObjectMacro(algorithm, << error.what());
       return 0;
-    }
-  }
-
-  /// Notes an output that is whole. Arrays are shared, not copied.
-  void Keep(vtkInformationVector* outputs, int port)
-  {
-    vtkDataObject* const output = vtkDataObject::GetData(outputs, port);
-    this->Outputs_.resize(outputs->GetNumberOfInformationObjects());
-    this->Outputs_[port].TakeReference(output->NewInstance());
-    Copy(output, this->Outputs_[port]);
-    this->IsDue_ = false;
-  }
-
-  /// Brings back what was kept for the port after an abort, and has the algorithm work again when
-  /// it is updated next. Where nothing was kept the output is empty, as VTK has it.
-  void Restore(vtkAlgorithm* algorithm, vtkInformationVector* outputs, int port)
-  {
-    vtkDataObject* const output = vtkDataObject::GetData(outputs, port);
-    output->Initialize();
-    if (this->Has(port))
-    {
-      this->Show(outputs, port);
-      // Else the executive empties the output, and those of all algorithms downstream.
-      algorithm->SetAbortOutput(false);
-      this->IsDue_ = true;
     }
   }
 
@@ -130,6 +107,31 @@ public:
   }
 
 private:
+  /// Notes an output that is whole. Arrays are shared, not copied.
+  void Keep(vtkInformationVector* outputs, int port)
+  {
+    vtkDataObject* const output = vtkDataObject::GetData(outputs, port);
+    this->Outputs_.resize(outputs->GetNumberOfInformationObjects());
+    this->Outputs_[port].TakeReference(output->NewInstance());
+    Copy(output, this->Outputs_[port]);
+    this->IsDue_ = false;
+  }
+
+  /// Brings back what was kept for the port after an abort, and has the algorithm work again when
+  /// it is updated next. Where nothing was kept the output is empty, as VTK has it.
+  void Restore(vtkAlgorithm* algorithm, vtkInformationVector* outputs, int port)
+  {
+    vtkDataObject* const output = vtkDataObject::GetData(outputs, port);
+    output->Initialize();
+    if (this->Has(port))
+    {
+      this->Show(outputs, port);
+      // Else the executive empties the output, and those of all algorithms downstream.
+      algorithm->SetAbortOutput(false);
+      this->IsDue_ = true;
+    }
+  }
+
   static void Copy(vtkDataObject* from, vtkDataObject* to)
   {
     to->ShallowCopy(from);

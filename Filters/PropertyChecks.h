@@ -1,13 +1,29 @@
-// Checks of the properties of filters, for use before work begins.
+// Number properties of readers and filters: set within a range, checked before work begins.
 #pragma once
 
 #include "Errors.h"
 
+#include <vtkObject.h>
+
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 namespace smokevis
 {
+
+/// Sets a property as vtkSetClampMacro does, but keeps what is not finite, which would else become
+/// an end of the range: CheckFinite refuses it by the property's name.
+inline void SetClamped(
+  vtkObject* owner, double& property, double value, double least, double greatest)
+{
+  const double kept = std::isfinite(value) ? std::clamp(value, least, greatest) : value;
+  if (property != kept && !(std::isnan(property) && std::isnan(kept)))
+  {
+    property = kept;
+    owner->Modified();
+  }
+}
 
 inline bool IsPositive(double value)
 {
@@ -29,6 +45,12 @@ inline void Check(
   {
     throw Error(property, what, remedy);
   }
+}
+
+inline void CheckFinite(const std::string& property, double value, const std::string& remedy)
+{
+  Check(std::isfinite(value), property,
+    "it is " + std::to_string(value) + ", which is no finite number", remedy);
 }
 
 inline void CheckPositive(double value, const char* property, const char* remedy)

@@ -4,6 +4,7 @@
 #include "EyeProperties.h"
 #include "FloorMap.h"
 #include "Identity.h"
+#include "KeptOrigin.h"
 #include "KeptOutput.h"
 #include "LightFieldInput.h"
 #include "MemoryGuard.h"
@@ -32,9 +33,8 @@ struct vtkFloorMapOfVisibility::Internals
 {
   smokevis::LightFieldInput Input;
   smokevis::KeptOutput Kept;
-  /// What Kept was made of: the light field, and the filter's properties as of then.
-  smokevis::Identity MadeOf;
-  vtkMTimeType MadeWith = 0;
+  /// Of Kept: the light field.
+  smokevis::KeptOrigin<smokevis::Identity> Origin;
 };
 
 namespace
@@ -261,17 +261,8 @@ int vtkFloorMapOfVisibility::RequestData(
   const auto work = [&]
   {
     // A parallel run asks for the whole and for pieces in turn: the work is done once.
-    const bool isNew =
-      !own.Kept.Has(0) || own.MadeOf != identity || own.MadeWith != this->GetMTime();
-    if (smokevis::Ranks().Most(isNew ? 1 : 0) == 0)
-    {
-      own.Kept.Show(outputVector, 0);
-      return;
-    }
-    own.MadeWith = 0;
-    this->Compute(input, vtkImageData::GetData(outputVector));
-    own.MadeOf = identity;
-    own.MadeWith = this->GetMTime();
+    own.Origin.Renew(this, outputVector, own.Kept, identity,
+      [&] { this->Compute(input, vtkImageData::GetData(outputVector)); });
   };
   const int done = own.Kept.Produce(this, outputVector, work);
   smokevis::LeaveToFirstPiece(outputVector);

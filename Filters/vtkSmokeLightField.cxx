@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "Identity.h"
+#include "KeptOrigin.h"
 #include "KeptOutput.h"
 #include "LightFieldArrays.h"
 #include "LightFieldInput.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 vtkStandardNewMacro(vtkSmokeLightField);
 
@@ -58,9 +60,8 @@ struct vtkSmokeLightField::Internals
   };
 
   smokevis::KeptOutput Kept;
-  /// What Kept was made of: the inputs, and the filter's properties as of then.
-  std::vector<std::uint64_t> MadeOf;
-  vtkMTimeType MadeWith = 0;
+  /// Of Kept: port and checksum of each input.
+  smokevis::KeptOrigin<std::vector<std::uint64_t>> Origin;
   smokevis::SceneKeeper Scenes;
   SolvedLight Solved;
 };
@@ -321,29 +322,27 @@ int vtkSmokeLightField::RequestData(
   {
     // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
     // the same contents its former output is divided in another way, and nothing else is done.
-    std::vector<std::uint64_t> contents;
-    for (int port = 0; port < this->GetNumberOfInputPorts() && ranks.Count() > 1; ++port)
+    std::optional<std::vector<std::uint64_t>> contents;
+    if (ranks.Count() > 1)
+    {
+      contents.emplace();
+    }
+    for (int port = 0; port < this->GetNumberOfInputPorts() && contents; ++port)
     {
       for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
       {
-        contents.push_back(port);
-        contents.push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
+        contents->push_back(port);
+        contents->push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
       }
     }
-    const bool isNew = ranks.Count() == 1 || !own.Kept.Has(0) || own.MadeOf != contents ||
-                       own.MadeWith != this->GetMTime();
-    if (ranks.Most(isNew ? 1 : 0) == 0)
-    {
-      own.Kept.Show(outputVector, 0);
-      return;
-    }
-    own.MadeWith = 0;
-    const auto start = std::chrono::steady_clock::now();
-    const double waited = this->Solve(inputVector, output);
-    const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
-    smokevis::ReportRanks(ranks, *output, all.count() - waited, waited);
-    own.MadeOf = contents;
-    own.MadeWith = this->GetMTime();
+    own.Origin.Renew(this, outputVector, own.Kept, contents,
+      [&]
+      {
+        const auto start = std::chrono::steady_clock::now();
+        const double waited = this->Solve(inputVector, output);
+        const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+        smokevis::ReportRanks(ranks, *output, all.count() - waited, waited);
+      });
   };
   const int done = own.Kept.Produce(this, outputVector, work);
   smokevis::DivideBlocks(*output, smokevis::AskedPiece(outputVector->GetInformationObject(0)));

@@ -4,11 +4,11 @@
 #include "CadImages.h"
 #include "CadPolyData.h"
 #include "Errors.h"
-#include "FiniteProperty.h"
 #include "KeptOutput.h"
 #include "MaterialTable.h"
 #include "PipelineProgress.h"
 #include "PrintableText.h"
+#include "PropertyChecks.h"
 #include "Ranks.h"
 
 #include "vtkInformation.h"
@@ -145,74 +145,62 @@ int vtkCADReader::RequestInformation(
 int vtkCADReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkPolyData* const surfaces = vtkPolyData::GetData(outputVector, SurfacesPort);
-  vtkPolyData* const emitters = vtkPolyData::GetData(outputVector, EmittersPort);
-  try
+  const auto work = [&]
   {
     smokevis::Ranks().Together(this,
       [&]
       {
         this->CheckProperties();
         this->LoadModel();
-        const smokevis::CadModel& model = *this->Internals->Model;
-        smokevis::MaterialTable table;
-        if (this->MaterialTable && *this->MaterialTable)
-        {
-          table = smokevis::MaterialTable(this->MaterialTable);
-          const std::vector<std::string> unmatched = table.Unmatched(model);
-          std::string list;
-          for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
-          {
-            list += (list.empty() ? "" : "; ") + unmatched[i];
-          }
-          if (!unmatched.empty())
-          {
-            vtkWarningMacro(<< "material table '" << this->MaterialTable << "': "
-                            << unmatched.size() << " rows match no material and no object: "
-                            << smokevis::Printable(list)
-                            << ". The names are in the cell arrays Material and Object.");
-          }
-        }
-        vtkNew<vtkTransform> placement;
-        placement->Translate(this->Translation);
-        placement->RotateZ(this->Rotation[2]);
-        placement->RotateX(this->Rotation[0]);
-        placement->RotateY(this->Rotation[1]);
-        smokevis::CadPolyDataOptions options;
-        options.DefaultReflectance = this->DefaultReflectance;
-        options.TransparencyThreshold = this->TransparencyThreshold;
-        const smokevis::CadTriangleCounts counts = smokevis::BuildCadPolyData(
-          model, table, options, *placement->GetMatrix(), *surfaces, *emitters);
-        if (counts.Kept == 0)
-        {
-          throw smokevis::Error(this->FileName,
-            "nothing of it is left: " + std::to_string(counts.Transparent) +
-              " triangles are transparent and " + std::to_string(counts.Dropped) +
-              " are dropped by the material table",
-            "Lower TransparencyThreshold or change the table");
-        }
+        this->Build(*vtkPolyData::GetData(outputVector, SurfacesPort),
+          *vtkPolyData::GetData(outputVector, EmittersPort));
       });
     this->UpdateProgress(1.0);
-    this->Internals->Kept.Keep(outputVector, SurfacesPort);
-    this->Internals->Kept.Keep(outputVector, EmittersPort);
-    smokevis::LeaveToFirstPiece(outputVector);
-  }
-  catch (const std::exception& error)
+  };
+  const int done = this->Internals->Kept.Produce(this, outputVector, work);
+  smokevis::LeaveToFirstPiece(outputVector);
+  return done;
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkCADReader::Build(vtkPolyData& surfaces, vtkPolyData& emitters)
+{
+  const smokevis::CadModel& model = *this->Internals->Model;
+  smokevis::MaterialTable table;
+  if (this->MaterialTable && *this->MaterialTable)
   {
-    if (this->GetAbortOutput())
+    table = smokevis::MaterialTable(this->MaterialTable);
+    const std::vector<std::string> unmatched = table.Unmatched(model);
+    std::string list;
+    for (std::size_t i = 0; i < unmatched.size() && i < MostListed; ++i)
     {
-      this->Internals->Kept.Restore(this, outputVector, SurfacesPort);
-      this->Internals->Kept.Restore(this, outputVector, EmittersPort);
-      smokevis::LeaveToFirstPiece(outputVector);
-      return 1;
+      list += (list.empty() ? "" : "; ") + unmatched[i];
     }
-    this->Internals->Kept.Clear();
-    surfaces->Initialize();
-    emitters->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
+    if (!unmatched.empty())
+    {
+      vtkWarningMacro(<< "material table '" << this->MaterialTable << "': " << unmatched.size()
+                      << " rows match no material and no object: " << smokevis::Printable(list)
+                      << ". The names are in the cell arrays Material and Object.");
+    }
   }
-  return 1;
+  vtkNew<vtkTransform> placement;
+  placement->Translate(this->Translation);
+  placement->RotateZ(this->Rotation[2]);
+  placement->RotateX(this->Rotation[0]);
+  placement->RotateY(this->Rotation[1]);
+  smokevis::CadPolyDataOptions options;
+  options.DefaultReflectance = this->DefaultReflectance;
+  options.TransparencyThreshold = this->TransparencyThreshold;
+  const smokevis::CadTriangleCounts counts =
+    smokevis::BuildCadPolyData(model, table, options, *placement->GetMatrix(), surfaces, emitters);
+  if (counts.Kept == 0)
+  {
+    throw smokevis::Error(this->FileName,
+      "nothing of it is left: " + std::to_string(counts.Transparent) +
+        " triangles are transparent and " + std::to_string(counts.Dropped) +
+        " are dropped by the material table",
+      "Lower TransparencyThreshold or change the table");
+  }
 }
 
 //------------------------------------------------------------------------------------------------

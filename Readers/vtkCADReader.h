@@ -189,6 +189,9 @@ private:
   /// Reads the file where it or a property that counts for reading changed.
   void LoadModel();
 
+  /// Fills the outputs from the model and the material table.
+  void Build(vtkPolyData& surfaces, vtkPolyData& emitters);
+
   char* FileName = nullptr;
   char* MaterialTable = nullptr;
   double UnitScale = 0.0;

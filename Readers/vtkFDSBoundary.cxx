@@ -103,7 +103,7 @@ FDSBoundary::FDSBoundary(const SmvFile& index) : FDSFileBlocks(index)
 }
 
 //------------------------------------------------------------------------------------------------
-std::unique_ptr<TimedFile> FDSBoundary::Open(const Part& part) const
+std::unique_ptr<TimedFile> FDSBoundary::OpenFile(const Part& part) const
 {
   const SmvMesh& mesh = this->Index().Meshes[part.Mesh];
   return std::make_unique<BoundaryFile>(this->Index().Resolve(part.FileName), mesh,

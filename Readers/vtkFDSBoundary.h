@@ -17,7 +17,7 @@ public:
   explicit FDSBoundary(const SmvFile& index);
 
 protected:
-  std::unique_ptr<TimedFile> Open(const Part& part) const override;
+  std::unique_ptr<TimedFile> OpenFile(const Part& part) const override;
   vtkSmartPointer<vtkDataSet> Build(
     const Part& part, std::span<const float> values, double time) const override;
 };

@@ -81,14 +81,12 @@ vtkSmartPointer<vtkTable> ParseCsv(const std::string& text, bool header)
 }
 
 void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
-  vtkStringArray* units, vtkDoubleArray* positions, std::vector<std::string>& warnings)
+  vtkStringArray* units, vtkDoubleArray* positions)
 {
   std::string text = ReadText(path);
   std::erase(text, '\r');
   // A run that still goes has not finished its last line.
-  const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
-  const bool cut = !Trim(std::string_view(text).substr(whole)).empty();
-  text.erase(whole);
+  text.erase(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
   const std::size_t unitsEnd = text.find('\n');
   if (unitsEnd == std::string::npos || text.find('\n', unitsEnd + 1) == std::string::npos)
   {
@@ -103,12 +101,6 @@ void AppendTable(const SmvFile& index, const std::string& path, vtkTable* table,
   {
     throw Error(path, "its number of rows differs from that of the run's other device tables",
       "Wait until the run has ended, or keep the devices of a run in one file");
-  }
-  if (cut)
-  {
-    const auto lines = std::count(text.begin(), text.end(), '\n');
-    warnings.push_back(path + ": line " + std::to_string(lines + 1) +
-                       " of the device table is cut short; the rows before it are used.");
   }
   for (vtkIdType column = 0; column < values->GetNumberOfColumns(); ++column)
   {
@@ -160,13 +152,34 @@ std::vector<std::string> ReadDeviceTable(const SmvFile& index, vtkTable* table)
     }
     else if (type == "devc")
     {
-      AppendTable(index, path, result, units, positions, warnings);
+      AppendTable(index, path, result, units, positions);
     }
   }
   result->GetFieldData()->AddArray(units);
   result->GetFieldData()->AddArray(positions);
   table->ShallowCopy(result);
   return warnings;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<std::string> DeviceTableDamages(const SmvFile& index)
+{
+  std::vector<std::string> lines;
+  for (const auto& [type, file] : index.Tables)
+  {
+    const std::string path = index.Resolve(file);
+    std::error_code problem;
+    if (type != "devc" || !std::filesystem::is_regular_file(path, problem))
+    {
+      continue;
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (stream.seekg(-1, std::ios::end) && stream.get() != '\n')
+    {
+      lines.push_back(path + ": its last line is cut short");
+    }
+  }
+  return lines;
 }
 
 } // namespace smokevis

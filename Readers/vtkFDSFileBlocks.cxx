@@ -15,32 +15,25 @@ namespace smokevis
 {
 
 //------------------------------------------------------------------------------------------------
-FDSFileBlocks::Report FDSFileBlocks::Publish(
+std::string FDSFileBlocks::Publish(
   double time, TimeInterpolation interpolation, vtkInformation* output)
 {
   const FDSPieces pieces(index_, output);
   ReadingShare share(this->BytesRead());
   FDSBlocks blocks;
-  Report report;
+  std::string leftOut;
   for (Part& part : parts_)
   {
     vtkSmartPointer<vtkDataSet> data;
-    std::error_code missing;
-    if (part.Mesh >= pieces.First() && part.Mesh < pieces.End() &&
-        std::filesystem::exists(index_.Resolve(part.FileName), missing))
+    if (this->Has(part, pieces))
     {
       try
       {
         data = this->Read(part, time, interpolation);
-        if (!part.File->Damage().empty())
-        {
-          report.Damages.push_back(
-            part.File->Path() + ": " + part.File->Damage() + "; the other frames are used.");
-        }
       }
       catch (const std::exception& error)
       {
-        report.LeftOut += (report.LeftOut.empty() ? "" : "\n") + std::string(error.what());
+        leftOut += (leftOut.empty() ? "" : "\n") + std::string(error.what());
       }
     }
     blocks.Add(part.Name, part.Mesh, data);
@@ -51,18 +44,58 @@ FDSFileBlocks::Report FDSFileBlocks::Publish(
   AddField(fields, "CHID", index_.Chid);
   pieces.ReportShares(share, fields);
   blocks.Publish(pieces, fields, time, output);
-  return report;
+  return leftOut;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<std::string> FDSFileBlocks::Damages(const FDSPieces& pieces, bool opens)
+{
+  std::vector<std::string> lines;
+  for (Part& part : parts_)
+  {
+    try
+    {
+      if (opens && this->Has(part, pieces))
+      {
+        this->Open(part);
+      }
+    }
+    catch (const std::exception&)
+    {
+      // Publish() says so, should it be read.
+      continue;
+    }
+    if (part.File)
+    {
+      part.File->NoteDamage(part.Quantity->LongLabel, lines);
+    }
+  }
+  return lines;
+}
+
+//------------------------------------------------------------------------------------------------
+bool FDSFileBlocks::Has(const Part& part, const FDSPieces& pieces) const
+{
+  std::error_code missing;
+  return part.Mesh >= pieces.First() && part.Mesh < pieces.End() &&
+         std::filesystem::exists(index_.Resolve(part.FileName), missing);
+}
+
+//------------------------------------------------------------------------------------------------
+void FDSFileBlocks::Open(Part& part) const
+{
+  if (!part.File)
+  {
+    part.File = this->OpenFile(part);
+    part.Times = std::make_unique<FrameTimes>(part.File->FrameTimes());
+  }
 }
 
 //------------------------------------------------------------------------------------------------
 vtkSmartPointer<vtkDataSet> FDSFileBlocks::Read(
   Part& part, double time, TimeInterpolation interpolation) const
 {
-  if (!part.File)
-  {
-    part.File = this->Open(part);
-    part.Times = std::make_unique<FrameTimes>(part.File->FrameTimes());
-  }
+  this->Open(part);
   const FrameMix mix = part.Times->At(time, interpolation);
   std::vector<float> values;
   part.File->ReadFrame(mix.Frame[0], values);

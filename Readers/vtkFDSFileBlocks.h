@@ -20,6 +20,7 @@ class vtkInformation;
 
 namespace smokevis
 {
+class FDSPieces;
 
 /// All files of one kind of a run, one quantity of one mesh each. They are opened when first read.
 class FDSFileBlocks
@@ -29,19 +30,15 @@ public:
   FDSFileBlocks& operator=(const FDSFileBlocks&) = delete;
   virtual ~FDSFileBlocks() = default;
 
-  /// What is to be said about what was read.
-  struct Report
-  {
-    /// Files that could not be read, and why; empty for none.
-    std::string LeftOut;
-    /// Files whose last frames are missing.
-    std::vector<std::string> Damages;
-  };
-
   /// Reads the files of this process's share of the meshes and hands all over as the output; files
   /// that are missing make empty blocks. All processes that read together must call it. Field data
   /// of a block are Quantity, Unit, File and Time, that of the values [s].
-  Report Publish(double time, TimeInterpolation interpolation, vtkInformation* output);
+  /// @returns which files could not be read, and why; empty for none
+  std::string Publish(double time, TimeInterpolation interpolation, vtkInformation* output);
+
+  /// Files of this process's share of the meshes that are not whole, a line each.
+  /// @param opens whether those that were not read yet are opened
+  std::vector<std::string> Damages(const FDSPieces& pieces, bool opens);
 
 protected:
   /// @param index must outlive this object
@@ -66,13 +63,16 @@ protected:
   const SmvFile& Index() const { return index_; }
 
   /// Opens the file of a part. Throws Error where that fails.
-  virtual std::unique_ptr<TimedFile> Open(const Part& part) const = 0;
+  virtual std::unique_ptr<TimedFile> OpenFile(const Part& part) const = 0;
 
   /// Makes a data set of a frame's values at @p time [s].
   virtual vtkSmartPointer<vtkDataSet> Build(
     const Part& part, std::span<const float> values, double time) const = 0;
 
 private:
+  /// Whether a part is this process's and its file is there.
+  bool Has(const Part& part, const FDSPieces& pieces) const;
+  void Open(Part& part) const;
   vtkSmartPointer<vtkDataSet> Read(Part& part, double time, TimeInterpolation interpolation) const;
   std::uint64_t BytesRead() const;
 

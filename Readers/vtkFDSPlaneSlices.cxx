@@ -70,7 +70,7 @@ double FDSPlaneSlices::Position(const SmvSlice& slice, int axis) const
 }
 
 //------------------------------------------------------------------------------------------------
-std::unique_ptr<TimedFile> FDSPlaneSlices::Open(const Part& part) const
+std::unique_ptr<TimedFile> FDSPlaneSlices::OpenFile(const Part& part) const
 {
   const SmvSlice& slice = this->Index().Slices[part.Entry];
   auto file = std::make_unique<SliceFile>(

@@ -1,5 +1,7 @@
 #include "vtkFDSRun.h"
 
+#include "vtkFDSDeviceTable.h"
+#include "vtkFDSPieces.h"
 #include "vtkFDSWalls.h"
 
 #include "Errors.h"
@@ -13,6 +15,9 @@ namespace smokevis
 
 namespace
 {
+
+// Most files that a message lists.
+constexpr std::size_t MostListed = 10;
 
 // Which of the things that change while the run goes are there at a time.
 std::vector<bool> ChangesAt(const SmvFile& index, double time)
@@ -117,6 +122,55 @@ std::vector<std::string> FDSRun::NotSaidYet(const std::vector<std::string>& warn
   std::copy_if(warnings.begin(), warnings.end(), std::back_inserter(fresh),
     [this](const std::string& warning) { return said_.insert(warning).second; });
   return fresh;
+}
+
+//------------------------------------------------------------------------------------------------
+std::string FDSRun::NotWhole(const FDSPieces& pieces, bool slices, bool boundary)
+{
+  const auto collect = [&](bool opens)
+  {
+    std::vector<std::string> lines;
+    const auto append = [&lines](const std::vector<std::string>& more)
+    { lines.insert(lines.end(), more.begin(), more.end()); };
+    if (smoke_)
+    {
+      append(smoke_->Damages());
+    }
+    if (flames_)
+    {
+      append(flames_->Damages());
+    }
+    append(slices_->Damages(pieces, opens && slices));
+    append(boundary_->Damages(pieces, opens && boundary));
+    return lines;
+  };
+  if (saidNotWhole_)
+  {
+    return {};
+  }
+  // Files that are not open yet are opened once it is clear that there is something to say.
+  std::vector<std::string> lines =
+    pieces.IsFirstPiece() ? DeviceTableDamages(*index_) : std::vector<std::string>();
+  if (lines.empty() && collect(false).empty())
+  {
+    return {};
+  }
+  saidNotWhole_ = true;
+  const std::vector<std::string> others = collect(true);
+  lines.insert(lines.begin(), others.begin(), others.end());
+  std::string text = index_->Path + ": " + std::to_string(lines.size()) +
+                     (lines.size() == 1 ? " file of the run is" : " files of the run are") +
+                     " not whole, as while it still goes or after it was stopped. The frames and "
+                     "lines before are used; \"Reload Files\" reads what was written since:";
+  for (std::size_t i = 0; i < lines.size() && i < MostListed; ++i)
+  {
+    text += "\n" + lines[i];
+  }
+  if (lines.size() > MostListed)
+  {
+    text += "\nand " + std::to_string(lines.size() - MostListed) + " more";
+  }
+  return text;
 }
 
 //------------------------------------------------------------------------------------------------

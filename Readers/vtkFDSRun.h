@@ -20,6 +20,7 @@
 
 namespace smokevis
 {
+class FDSPieces;
 
 /// An FDS run: its index, the files chosen from it, and the walls as they were built last.
 class FDSRun
@@ -69,6 +70,12 @@ public:
   /// Those of @p warnings that this did not return before.
   std::vector<std::string> NotSaidYet(const std::vector<std::string>& warnings);
 
+  /// One text a run about its files that are not whole, which of those that are read for this piece
+  /// it names: a run that still goes cuts most of them. Empty where none of those read so far is
+  /// cut, and once it was said.
+  /// @param slices, boundary whether these files are read, too
+  std::string NotWhole(const FDSPieces& pieces, bool slices, bool boundary);
+
   /// The walls at a time; built anew only when something changed since the last call.
   /// @param leastOpacity obstructions less opaque (0 to 1) are left out
   /// @param warnings what is to be said about them, empty unless they were built anew
@@ -85,6 +92,7 @@ private:
   std::unique_ptr<FDSPlaneSlices> slices_;
   std::unique_ptr<FDSBoundary> boundary_;
   std::set<std::string> said_;
+  bool saidNotWhole_ = false;
   vtkSmartPointer<vtkPolyData> geometry_;
   std::vector<bool> geometryChanges_;
   bool geometryMoves_ = false;

@@ -81,10 +81,13 @@ std::vector<SmokeMesh> ReadShare(
   return meshes;
 }
 
-// Which meshes show another time than the one that was asked for.
-void WarnOfTimes(const SmokeRequest& request, int first, const std::vector<SmokeMesh>& meshes,
-  std::vector<std::string>& warnings)
+// Which meshes show another time than the one that was asked for: a line each, as those of a run
+// that still goes may do so all together.
+std::string OtherTimes(const SmokeRequest& request, int first, const std::vector<SmokeMesh>& meshes)
 {
+  std::string lines;
+  const auto add = [&lines](const std::string& line)
+  { lines += (lines.empty() || line.empty() ? "" : "\n") + line; };
   for (std::size_t i = 0; i < meshes.size(); ++i)
   {
     const int mesh = first + static_cast<int>(i);
@@ -94,14 +97,14 @@ void WarnOfTimes(const SmokeRequest& request, int first, const std::vector<Smoke
       std::ostringstream text;
       text << "Mesh '" << request.Index->Meshes[mesh].Name << "' has no frame at " << request.Time
            << " s: its frame at " << meshes[i].Time << " s is shown.";
-      warnings.push_back(text.str());
+      add(text.str());
     }
     if (request.Flames)
     {
-      warnings.push_back(request.Flames->MissingFrame(mesh, request.Time, request.Interpolation));
+      add(request.Flames->MissingFrame(mesh, request.Time, request.Interpolation));
     }
   }
-  std::erase(warnings, "");
+  return lines;
 }
 
 // The light of all flames, which all processes know then.
@@ -144,7 +147,10 @@ std::vector<std::string> ReadSmokeOutput(
   share.End(BytesRead(request));
 
   std::vector<std::string> warnings;
-  WarnOfTimes(request, pieces.First(), meshes, warnings);
+  if (const std::string times = OtherTimes(request, pieces.First(), meshes); !times.empty())
+  {
+    warnings.push_back(times);
+  }
   vtkNew<vtkFieldData> fields;
   AddField(fields, "ExtinctionSource", request.Smoke->Description());
   AddField(fields, "Albedo", request.Albedo);

@@ -1,6 +1,5 @@
 #include "vtkFDSSmokeReader.h"
 
-#include "FiniteProperty.h"
 #include "vtkFDSDeviceTable.h"
 #include "vtkFDSPieces.h"
 #include "vtkFDSRun.h"
@@ -10,6 +9,7 @@
 #include "Errors.h"
 #include "KeptOutput.h"
 #include "PrintableText.h"
+#include "PropertyChecks.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
@@ -264,7 +264,7 @@ int vtkFDSSmokeReader::RequestData(
     return 0;
   }
   const int wanted = request->Get(vtkExecutive::FROM_OUTPUT_PORT());
-  try
+  const auto work = [&]
   {
     smokevis::FDSRun& run = this->Internals->Run;
     this->Warn(run.NotSaidYet(run.Index().Warnings));
@@ -273,41 +273,35 @@ int vtkFDSSmokeReader::RequestData(
       if (wanted < 0 || wanted == port)
       {
         this->ReadPort(port, outputVector->GetInformationObject(port));
-        kept.Keep(outputVector, port);
       }
     }
-  }
-  catch (const std::exception& error)
-  {
-    if (this->GetAbortOutput())
-    {
-      for (int port = 0; port < NumberOfPorts; ++port)
-      {
-        if (wanted < 0 || wanted == port)
-        {
-          kept.Restore(this, outputVector, port);
-        }
-      }
-      return 1;
-    }
-    kept.Clear();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+  };
+  return kept.Produce(this, outputVector, work, wanted);
 }
 
 //------------------------------------------------------------------------------------------------
 void vtkFDSSmokeReader::ReadBlocks(
   vtkInformation* outInfo, const char* what, smokevis::FDSFileBlocks& files)
 {
-  const smokevis::FDSFileBlocks::Report report = files.Publish(this->SceneTime(outInfo),
+  const std::string leftOut = files.Publish(this->SceneTime(outInfo),
     static_cast<smokevis::TimeInterpolation>(this->TimeInterpolation), outInfo);
-  if (!report.LeftOut.empty())
+  if (!leftOut.empty())
   {
-    vtkWarningMacro(<< "Some " << what << " are left out: " << report.LeftOut);
+    vtkWarningMacro(<< "Some " << what << " are left out: " << leftOut);
   }
-  this->Warn(this->Internals->Run.NotSaidYet(report.Damages));
+  this->WarnOfGrowth(outInfo);
+}
+
+//------------------------------------------------------------------------------------------------
+void vtkFDSSmokeReader::WarnOfGrowth(vtkInformation* outInfo)
+{
+  smokevis::FDSRun& run = this->Internals->Run;
+  const std::string text = run.NotWhole(
+    smokevis::FDSPieces(run.Index(), outInfo), this->ReadPlaneSlices, this->ReadBoundary);
+  if (!text.empty())
+  {
+    this->Warn({text});
+  }
 }
 
 //------------------------------------------------------------------------------------------------
@@ -351,6 +345,7 @@ void vtkFDSSmokeReader::ReadSmoke(vtkInformation* outInfo)
   {
     this->Warn(run.NotSaidYet(run.Flames()->Warnings()));
   }
+  this->WarnOfGrowth(outInfo);
   const smokevis::SmvFile& index = run.Index();
   const bool flames = run.Flames() && run.Flames()->HasData();
   smokevis::SmokeRequest request;
@@ -392,4 +387,5 @@ void vtkFDSSmokeReader::ReadDevices(vtkInformation* outInfo)
   }
   vtkTable* const devices = vtkTable::SafeDownCast(outInfo->Get(vtkDataObject::DATA_OBJECT()));
   this->Warn(smokevis::ReadDeviceTable(index, devices));
+  this->WarnOfGrowth(outInfo);
 }

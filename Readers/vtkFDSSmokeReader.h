@@ -245,6 +245,9 @@ private:
   /// Opens the run; false where that fails, which is then said, but once only.
   bool LoadRun();
   void Warn(const std::vector<std::string>& warnings);
+
+  /// Warns, once a run, of files that it has not written to their ends.
+  void WarnOfGrowth(vtkInformation* outInfo);
   double SceneTime(vtkInformation* outInfo) const;
   void ReadPort(int port, vtkInformation* outInfo);
   void ReadSmoke(vtkInformation* outInfo);

@@ -70,14 +70,8 @@ void ExtinctionSource::Choose()
   {
     this->FailWithoutSmoke();
   }
-  const auto warnOfDamage = [this](const VolumeField& field)
-  {
-    if (!field.File().Damage().empty())
-    {
-      warnings_.push_back(field.File().Path() + ": " + field.File().Damage() + " (" +
-                          field.Of().Label.LongLabel + "); the other frames are used.");
-    }
-  };
+  const auto noteDamage = [this](const VolumeField& field)
+  { field.File().NoteDamage(field.Of().Label.LongLabel, damages_); };
   // What could not be opened, by mesh and species: an error unless something else can be.
   std::map<std::pair<int, std::string>, std::vector<Error>> failures;
   for (SmokeCandidate& candidate : candidates)
@@ -96,10 +90,10 @@ void ExtinctionSource::Choose()
       {
         term.Density = std::make_unique<VolumeField>(index_, density);
       }
-      warnOfDamage(term.Field);
+      noteDamage(term.Field);
       if (term.Density)
       {
-        warnOfDamage(*term.Density);
+        noteDamage(*term.Density);
       }
       chosen.push_back(std::move(term));
     }

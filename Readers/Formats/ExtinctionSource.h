@@ -40,8 +40,11 @@ public:
   /// Which quantities and files are used.
   const std::string& Description() const { return description_; }
 
-  /// What is incomplete, e.g. frames cut short or parts of a mesh without data.
+  /// What is missing, e.g. parts of a mesh without data.
   const std::vector<std::string>& Warnings() const { return warnings_; }
+
+  /// Files that are not whole, a line each; their other frames are used.
+  const std::vector<std::string>& Damages() const { return damages_; }
 
   /// Reads @p mesh at @p time into @p values, K [1/m] a cell, x fastest: 0 in solids and where no
   /// file has data. @p solid marks the solid cells (see SolidCells()), empty for none. Returns the
@@ -92,6 +95,7 @@ private:
   SmokeOptions options_;
   std::string description_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> damages_;
   std::vector<double> times_;
   tbb::enumerable_thread_specific<Scratch> scratch_;
   /// The chosen terms of each mesh, those of one species side by side.

@@ -32,11 +32,7 @@ FlameSource::FlameSource(const SmvFile& index, FlameModel model)
     try
     {
       VolumeField field(index, std::move(candidate));
-      if (!field.File().Damage().empty())
-      {
-        warnings_.push_back(field.File().Path() + ": " + field.File().Damage() + " (" +
-                            field.Of().Label.LongLabel + "); the other frames are used.");
-      }
+      field.File().NoteDamage(field.Of().Label.LongLabel, damages_);
       text << (text.tellp() > 0 ? "; " : "") << "mesh '" << index.Meshes[mesh].Name
            << "': " << field.Of().Label.LongLabel << " [" << field.Of().Label.Unit << "], "
            << std::filesystem::path(field.File().Path()).filename().string();

@@ -39,6 +39,8 @@ public:
   /// Which files are used; empty without data.
   const std::string& Description() const { return description_; }
   const std::vector<std::string>& Warnings() const { return warnings_; }
+  /// Files that are not whole, a line each; their other frames are used.
+  const std::vector<std::string>& Damages() const { return damages_; }
 
   /// What to say where a file of @p mesh has no frame near @p time [s], as one cut short has none
   /// towards the end: the file, and the time of the frame that stands in. Empty where all have.
@@ -57,6 +59,7 @@ private:
   const SmvFile& index_;
   std::string description_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> damages_;
   /// Best first, of each mesh.
   std::vector<std::vector<VolumeField>> fields_;
   tbb::enumerable_thread_specific<std::vector<float>> scratch_;

@@ -17,10 +17,21 @@ constexpr int NewestVersion = 1;
 constexpr double GreatestByte = 254.0;
 constexpr unsigned char RunMark = 255;
 
+// The file called as another with an ending, which is in capital letters where the other's name
+// was written so on its way; with the small ending where there is none.
+std::string Companion(const std::string& path, const char* ending, const char* capitals)
+{
+  std::error_code problem;
+  const bool capital = !std::filesystem::exists(path + ending, problem) &&
+                       std::filesystem::exists(path + capitals, problem);
+  return path + (capital ? capitals : ending);
+}
+
 std::string TwinOrSelf(const std::string& path)
 {
   std::error_code problem;
-  return std::filesystem::exists(path + "d", problem) ? path + "d" : path;
+  const std::string twin = Companion(path, "d", "D");
+  return std::filesystem::exists(twin, problem) ? twin : path;
 }
 
 } // namespace
@@ -79,7 +90,7 @@ Smoke3DFile::Smoke3DFile(const std::string& path, const std::array<int, 3>& node
   this->Open();
   if (scale_ == Scale::Density)
   {
-    this->ReadGreatestDensities(path + ".sz");
+    this->ReadGreatestDensities(Companion(path, ".sz", ".SZ"));
   }
   if (times_.empty())
   {

@@ -49,8 +49,23 @@ std::string SmvFile::Resolve(const std::string& name) const
   const fs::path asSlashes = folder / slashes;
   // A run that was moved since, perhaps from another machine, lies beside its index.
   const fs::path beside = folder / fs::path(slashes).filename();
-  return (!fs::exists(asSlashes, problem) && fs::exists(beside, problem) ? beside : asSlashes)
-    .string();
+  for (const fs::path& there : {asSlashes, beside})
+  {
+    if (fs::exists(there, problem))
+    {
+      return there.string();
+    }
+  }
+  std::optional<fs::path> found;
+  if (fs::path(slashes).is_relative())
+  {
+    found = names_->Find(folder, slashes);
+  }
+  if (!found)
+  {
+    found = names_->Find(folder, beside.filename());
+  }
+  return found.value_or(asSlashes).string();
 }
 
 //------------------------------------------------------------------------------------------------

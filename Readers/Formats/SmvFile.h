@@ -2,7 +2,10 @@
 // are.
 #pragma once
 
+#include "FolderNames.h"
+
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -154,6 +157,7 @@ public:
   explicit SmvFile(const std::string& path);
 
   /// The path of a file that the index names: beside the index; backslashes of Windows understood.
+  /// Where there is none so called, the only one that differs in capital and small letters alone.
   std::string Resolve(const std::string& name) const;
 
   /// The surface that FDS gives to boundaries without a vent.
@@ -184,6 +188,9 @@ public:
   /// What a reader should know but can live with, e.g. an index that ends in the middle of an
   /// entry.
   std::vector<std::string> Warnings;
+
+private:
+  std::shared_ptr<const FolderNames> names_ = std::make_shared<FolderNames>();
 };
 
 } // namespace smokevis

@@ -30,6 +30,16 @@ public:
   /// Reads the values of frame @p frame into @p values, which is resized to their number.
   virtual void ReadFrame(std::size_t frame, std::vector<float>& values) = 0;
 
+  /// Adds Damage() to @p lines, with the file's name, where there is any.
+  /// @param quantity that the file holds
+  void NoteDamage(const std::string& quantity, std::vector<std::string>& lines) const
+  {
+    if (!this->Damage().empty())
+    {
+      lines.push_back(this->Path() + ": " + this->Damage() + " (" + quantity + ")");
+    }
+  }
+
   /// Bytes that were fetched from the disk or its cache so far, those of opening it included.
   virtual std::uint64_t BytesRead() const = 0;
 };

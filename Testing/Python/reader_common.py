@@ -1,13 +1,13 @@
 """What the tests of the FDS reader share: loading the plugin, looking at outputs, counting messages."""
 
 import os
-import re
 import sys
 
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkFileOutputWindow, vtkLogger, vtkOutputWindow
+
+import scenes
 
 AXES = "xyz"
 
@@ -37,32 +37,12 @@ def write_nan_in_room(folder, into):
         file.write(data)
 
 
-class Messages:
+class Messages(scenes.Messages):
     """Collects VTK's errors and warnings instead of printing them."""
-
-    def __init__(self, folder):
-        self.path = str(folder) + "/messages.txt"
-
-    def __enter__(self):
-        open(self.path, "w").close()
-        self.before = vtkOutputWindow.GetInstance()
-        self.window = vtkFileOutputWindow()
-        self.window.SetFileName(self.path)
-        self.window.FlushOn()
-        vtkOutputWindow.SetInstance(self.window)
-        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-        return self
-
-    def __exit__(self, *_):
-        vtkOutputWindow.SetInstance(self.before)
-        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
-        del self.window
-        with open(self.path) as file:
-            self.text = file.read()
 
     def count(self, kind):
         """Messages of a kind, "ERROR" or "Warning", that the reader itself gave."""
-        return len(re.findall(kind + r": In \S*vtkFDSSmokeReader\.cxx", self.text))
+        return super().count(kind, "vtkFDSSmokeReader")
 
 
 class Mesh:

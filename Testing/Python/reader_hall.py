@@ -136,7 +136,7 @@ with tempfile.TemporaryDirectory() as temporary:
     copy = os.path.join(temporary, "hall.smv")
     shutil.copy(os.path.join(folder, "hall.smv"), copy)
     broken = reader(copy)
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         broken.UpdatePipeline(600.0)
     true("hall_1_1.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'west' cannot be opened" in messages.text, "the missing slice is named")
     equal(messages.count("ERROR"), 1, "errors of a missing slice")
@@ -146,7 +146,7 @@ with tempfile.TemporaryDirectory() as temporary:
     equal(data.GetNumberOfPartitionedDataSets(), 0, "meshes of a failed read")
     # Asked of the pipeline itself, the walls need no slice (a proxy updates all its outputs).
     alone = reader(copy).GetClientSideObject()
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         alone.Update(1)
     equal(messages.text, "", "messages of the walls alone")
     count = alone.GetOutputDataObject(1).GetNumberOfCells()
@@ -159,18 +159,18 @@ with tempfile.TemporaryDirectory() as temporary:
     os.chmod(cut, 0o644)
     os.truncate(cut, os.path.getsize(cut) - 1000)
     shorter = reader(copy)
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         earlier = Smoke(shorter, 540.0)
     equal((messages.count("ERROR"), messages.count("Warning")), (0, 1), "messages of a cut slice")
     true("hall_2_1.sf: frame 11" in messages.text, "the frame cut short is named")
     close(earlier.field("Time"), steps[9], 0.0, "a frame before the cut")
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         Smoke(shorter, 600.0)
     true("Mesh 'east' has no frame at 600 s" in messages.text, "a mesh without the frame is named")
 
     with open(copy, "w") as file:
         file.write("")
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         reader(copy).UpdatePipeline(0.0)
     true("the FDS index is empty" in messages.text, "an empty index is said to be")
 

@@ -102,7 +102,7 @@ with tempfile.TemporaryDirectory() as temporary:
     names = ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv")
     link(folder, temporary, names)
     write_nan_in_room(folder, temporary)
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         bad = reader(os.path.join(temporary, "room.smv")).GetClientSideObject()
         bad.UpdateTimeStep(-2.0, 0, 1, 0)
     text = "room_2_2.sf" if rank == ranks - 1 else "Another process could not read its meshes"

@@ -184,7 +184,7 @@ with tempfile.TemporaryDirectory() as temporary:
     close(volume, 0.5**3 / 6, 1e-7, "volume of the tetrahedron")
     os.truncate(os.path.join(temporary, "room.ge"), len(body) - 1)
     solid.Refresh()
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         simple.OutputPort(solid, 1).UpdatePipeline(0.0)
     true("room.ge: the geometry file holds no whole frame" in messages.text, "a cut geometry is named")
 
@@ -193,7 +193,7 @@ with tempfile.TemporaryDirectory() as temporary:
     link(folder, temporary, ("room.smv", "room_1_2.sf", "room_1_2.s3d", "room_2_2.s3d", "room_devc.csv"))
     write_nan_in_room(folder, temporary)
     bad = reader(os.path.join(temporary, "room.smv"))
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         bad.UpdatePipeline(-2.0)
     true("room_2_2.sf" in messages.text, "the file with the NaN is named")
     true("cell (3, 4, 5) of mesh 'coarse' at -2 s" in messages.text, "the cell with the NaN is named")

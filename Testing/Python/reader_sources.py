@@ -286,7 +286,7 @@ with tempfile.TemporaryDirectory() as temporary:
         short = struct.unpack_from("<i", file.read(162), 158)[0] + 20
         file.truncate(146 + 3 * short)
     live = reader(os.path.join(temporary, "room.smv"))
-    with Messages(temporary) as messages:
+    with Messages() as messages:
         close(Smoke(live, 30.0).field("Time"), steps[2], 0.0, "the last frame so far")
     true("room_1_2.sf: frame 4 at byte" in messages.text, "the frame being written is named")
     with open(growing, "wb") as file:

@@ -105,6 +105,29 @@ TEST(SmvFile, ReadsWhatTheRunSays)
   EXPECT_TRUE(IsOn(events, 20.0));
 }
 
+TEST(SmvFile, FindsNamesInOtherLetters)
+{
+  test::Folder folder("letters");
+  const SmvFile index(folder.Write("test.smv", OneMesh().Bytes()));
+  std::filesystem::create_directory(folder.Path("Results"));
+  folder.Write("TEST_1_1.SF", "");
+  folder.Write("Results/Part.sf", "");
+  for (const char* name :
+    {"test_1_1.sf", "Test_1_1.Sf", "C:\\run\\test_1_1.sf", "gone/test_1_1.sf"})
+  {
+    EXPECT_EQ(index.Resolve(name), folder.Path("TEST_1_1.SF")) << name;
+  }
+  EXPECT_EQ(index.Resolve("results\\PART.sf"), folder.Path("Results/Part.sf"));
+  // One called as it should be comes first; of two others it is not clear which is meant.
+  folder.Write("one.sf", "");
+  folder.Write("ONE.sf", "");
+  const SmvFile again(folder.Path("test.smv"));
+  EXPECT_EQ(again.Resolve("one.sf"), folder.Path("one.sf"));
+  EXPECT_EQ(again.Resolve("ONE.sf"), folder.Path("ONE.sf"));
+  EXPECT_EQ(again.Resolve("One.sf"), folder.Path("One.sf"));
+  EXPECT_EQ(again.Resolve("none.sf"), folder.Path("none.sf"));
+}
+
 TEST(SmvFile, ReadsWindowsLineEnds)
 {
   test::Folder folder("crlf");

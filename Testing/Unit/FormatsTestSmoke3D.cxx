@@ -104,6 +104,13 @@ TEST(Smoke3DFile, PrefersTheDensityTwin)
   std::vector<float> values;
   Smoke3DFile(path, Nodes, 0.5).ReadFrame(0, values);
   EXPECT_THAT(values, Each(FloatNear(1e-4F, 1e-10F)));
+  // All names in capital letters, as some disks have them.
+  const std::string capitals = folder.Write("B.S3D", Smoke(0, {Coded}));
+  folder.Write("B.S3DD", Smoke(0, {{255, 254, 12}}));
+  folder.Write("B.S3D.SZ", "    0\n 0.0 12 5 180.0 3 2.0E-4\n");
+  EXPECT_TRUE(Smoke3DFile::HoldsDensity(capitals));
+  Smoke3DFile(capitals, Nodes, 0.5).ReadFrame(0, values);
+  EXPECT_THAT(values, Each(FloatNear(2e-4F, 1e-10F)));
 }
 
 TEST(Smoke3DFile, NamesWhatIsWrong)

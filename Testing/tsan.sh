@@ -1,0 +1,34 @@
+#!/bin/bash
+# The solver and the filters under the thread sanitizer: bash Testing/tsan.sh [options of ctest]
+#
+# Debian's TBB is not built with the sanitizer, which then does not see how work is handed from thread
+# to thread and takes each hand-over for a race. So Debian's source of the same version is fetched and
+# built with it, below build/tsan-tbb, and loaded in place of the other by the test preset.
+set -e
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+tbb="$PWD/build/tsan-tbb"
+
+if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
+  rm -rf "$tbb"
+  mkdir -p "$tbb/lists/partial" "$tbb/sources.list.d" "$tbb/lib"
+  cat > "$tbb/sources.list.d/debian.sources" <<SOURCES
+Types: deb-src
+URIs: http://deb.debian.org/debian
+Suites: bookworm
+Components: main
+Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
+SOURCES
+  # The machine's own lists of packages stay as they are.
+  apt=(apt-get -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$tbb/sources.list.d"
+    -o "Dir::State::Lists=$tbb/lists" -o "Dir::Cache=$tbb" -o APT::Sandbox::User=)
+  "${apt[@]}" update
+  (cd "$tbb" && "${apt[@]}" source "onetbb=$(dpkg-query -W -f '${source:Version}' libtbb12)")
+  cmake -S "$(echo "$tbb"/onetbb-*/)" -B "$tbb/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DTBB_SANITIZE=thread -DTBB_STRICT=OFF -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF
+  cmake --build "$tbb/build" --target tbb
+  cp -P "$tbb"/build/*_relwithdebinfo/libtbb.so* "$tbb/lib"
+fi
+
+cmake --preset tsan
+cmake --build --preset tsan --target RadianceTests VtkTests StressTests ValidationTests
+ctest --preset tsan -R '^(RadianceTests|VtkTests|StressTests|ValidationTests)$' --timeout 36000 "$@"
