@@ -46,6 +46,7 @@
 
 namespace smokevis
 {
+class Agreement;
 struct SceneBlocks;
 struct SceneDescription;
 struct SceneOptions;
@@ -195,7 +196,10 @@ private:
   struct Task;
 
   /// Together with all processes of a parallel run. Returns the time spent on the others [s].
-  double Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+  /// @param agreement that already has the inputs
+  double Solve(vtkInformationVector** inputs, smokevis::Agreement& agreement,
+    vtkPartitionedDataSetCollection* output);
+  void AddProperties(smokevis::Agreement& agreement) const;
   /// Collects the scene.
   void Prepare(vtkInformationVector** inputs, Task& task);
   /// Solves the light field of the scene and stores it in the scene's blocks.
