@@ -20,7 +20,9 @@
  * all input arrays and can be saved and read back. Added cell arrays, float, a component a band
  * unless said otherwise:
  * - smoke: `Fluence` and its standard error `FluenceError` [lx]; `DirectFluence`, its part that
- * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band;
+ * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band. Of a
+ * cell that walls cut, these two are those of its first part, and the field data of the smoke's
+ * block hold the others' as `PartDirectFluence` and `PartMultipleFluence`;
  * - surfaces and emitters: `Illuminance` of the front and its standard error `IlluminanceError`
  * [lx]; `IlluminanceBack`; `DirectIlluminance`, front and back of each band; `MultipleIlluminance`,
  * 16 batches of the front, then the back, of each band. Surfaces are cut into patches; `ParentCell`
