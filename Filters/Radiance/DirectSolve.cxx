@@ -113,6 +113,8 @@ double DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& s
   {
     return 0.0;
   }
+  this->Field_.Report.push_back({"parts of cells", static_cast<double>(parts.size()),
+    "surfaces or plates cut the cells: each part has light of its own"});
   constexpr double share = 0.5 * CellShare;
   this->ForOwn(parts.size(), 16, 0.0, share,
     [&](std::size_t part)
