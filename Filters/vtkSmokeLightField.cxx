@@ -201,8 +201,8 @@ void vtkSmokeLightField::SolveBlocks(Task& task)
     { field = smokevis::SolveLightField(*scene, solver, progress); });
   task.Waited = team.Waited();
   task.Report.insert(task.Report.end(), field.Report.begin(), field.Report.end());
-  ranks.Together(
-    this, [&] { smokevis::StoreLightField(std::move(field), task.Blocks, this->Bands); });
+  ranks.Together(this,
+    [&] { smokevis::StoreLightField(std::move(field), scene->Smoke(), task.Blocks, this->Bands); });
 }
 
 //------------------------------------------------------------------------------
