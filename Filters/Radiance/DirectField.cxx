@@ -174,13 +174,14 @@ void DirectField::MeasureNearCells()
   tbb::parallel_for(std::size_t{0}, cells.size(),
     [&](std::size_t i)
     {
+      const bool part = this->Scene_.Smoke().Parts().Find(cells[i].Index) != nullptr;
       for (const NearLights::Light& light : cells[i].Lights)
       {
-        this->NearMeans_[i].push_back(light.Clear && this->Lights_->Field(light.Index)
+        this->NearMeans_[i].push_back(light.Clear && this->Lights_->Field(light.Index) && !part
                                         ? Spectrum{}
                                         : this->Direct_.CellFluence(light.Index, cells[i].Index));
       }
-      const Spectrum others = this->OthersFluence(cells[i]);
+      const Spectrum others = this->OthersFluence(i);
       for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
       {
         this->Means_[band * this->Cells_ + cells[i].Index] = static_cast<float>(others[band]);
@@ -188,15 +189,17 @@ void DirectField::MeasureNearCells()
     });
 }
 
-Spectrum DirectField::OthersFluence(const NearLights::Cell& near) const
+Spectrum DirectField::OthersFluence(std::size_t place) const
 {
+  const NearLights::Cell& near = this->Lights_->Cells()[place];
+  const bool part = this->Scene_.Smoke().Parts().Find(near.Index) != nullptr;
   const std::size_t lights = this->Scene_.Lights().Lights().size();
   Spectrum sum{};
   if (near.Lights.size() == lights)
   {
     return sum;
   }
-  if (near.Close)
+  if (near.Close && !part)
   {
     auto skip = near.Lights.begin();
     for (std::size_t light = 0; light < lights; ++light)
@@ -221,9 +224,14 @@ Spectrum DirectField::OthersFluence(const NearLights::Cell& near) const
   {
     sum[band] = this->Means_[band * this->Cells_ + near.Index];
   }
-  for (const NearLights::Light& light : near.Lights)
+  for (std::size_t i = 0; i < near.Lights.size(); ++i)
   {
-    for (int point = 0; point < 8; ++point)
+    const NearLights::Light& light = near.Lights[i];
+    for (std::size_t band = 0; band < this->Shapes_.size() && part; ++band)
+    {
+      sum[band] -= this->NearMeans_[place][i][band];
+    }
+    for (int point = 0; point < 8 && !part; ++point)
     {
       const Vec3 share(Nodes2[point & 1], Nodes2[point >> 1 & 1], Nodes2[point >> 2 & 1]);
       const Spectrum value =

@@ -75,7 +75,8 @@ private:
   double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band) const;
   /// What the lights that are not near to a cell add to its direct fluence.
-  Spectrum OthersFluence(const NearLights::Cell& near) const;
+  /// @param place of the cell among those that lights are near to
+  Spectrum OthersFluence(std::size_t place) const;
 
   const Scene& Scene_;
   const LightField& Field_;

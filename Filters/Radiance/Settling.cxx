@@ -58,7 +58,6 @@ BlockMeans::BlockMeans(
   for (std::size_t i = 0; i < field.Cells; ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
-    const Vec3 size = smoke.CellSize(cell);
     const Vec3 place = (smoke.CellCentre(cell) - smoke.Lower()) / extent;
     std::size_t block = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -67,7 +66,7 @@ BlockMeans::BlockMeans(
       block = block * count + std::clamp(static_cast<int>(count * place[axis]), 0, count - 1);
     }
     shares[i] = {
-      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * size.x * size.y * size.z};
+      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.CellVolume(cell)};
   }
   this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
     shares);

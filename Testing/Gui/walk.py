@@ -66,7 +66,7 @@ def walk():
     scene.AnimationTime = 600.0
     shown = simple.Show(run, view)
     assert shown.Representation == "Smoke", shown.Representation
-    shown.ExtinctionFactor = 0.02
+    shown.ExtinctionFactor = 0.2
     look_down(view)
     picture("1_smoke", run)
 
