@@ -52,8 +52,8 @@ public:
   {
   }
 
-  /// Traces the pixels from (x, y) on.
-  void Trace(int x, int y) const
+  /// Traces the pixels from (x, y) on. Returns how many of them are means of samples.
+  std::size_t Trace(int x, int y) const
   {
     const int columns = std::min(BlockSize, this->Camera_.Width - x);
     const int rows = std::min(BlockSize, this->Camera_.Height - y);
@@ -72,13 +72,17 @@ public:
       }
     }
     veil.Compute();
+    std::size_t averaged = 0;
     for (int row = 0; row < rows; ++row)
     {
       for (int column = 0; column < columns; ++column)
       {
-        this->Shade(x + column, y + row, pixels[row * width + column], veil.Get(column, row));
+        const Pixel& pixel = pixels[row * width + column];
+        this->Shade(x + column, y + row, pixel, veil.Get(column, row));
+        averaged += pixel.Samples > 1 ? 1 : 0;
       }
     }
+    return averaged;
   }
 
 private:
@@ -331,6 +335,7 @@ TracedImage TracePinhole(
   const Squares squares(camera);
   const std::size_t own = team.OwnCount(squares.Count);
   std::atomic<std::size_t> done{0};
+  std::atomic<std::size_t> averaged{0};
   tbb::parallel_for(std::size_t{0}, own,
     [&](std::size_t i)
     {
@@ -339,7 +344,8 @@ TracedImage TracePinhole(
         return;
       }
       const std::size_t square = team.OwnItem(i);
-      tracer.Trace(squares.X(square), squares.Y(square));
+      averaged.fetch_add(
+        tracer.Trace(squares.X(square), squares.Y(square)), std::memory_order_relaxed);
       const std::size_t count = done.fetch_add(1, std::memory_order_relaxed) + 1;
       if (std::this_thread::get_id() == caller)
       {
@@ -350,6 +356,7 @@ TracedImage TracePinhole(
   {
     throw Error("image", "it was stopped before it was finished");
   }
+  image.Averaged = averaged;
   return image;
 }
 
@@ -415,6 +422,7 @@ TracedImage TraceLens(
       value /= static_cast<float>(LensSamples);
     }
   }
+  image.LensPoints = LensSamples;
   return image;
 }
 
@@ -459,6 +467,7 @@ TracedImage TraceImage(
   TracedImage image = camera.Aperture > 0.0 ? TraceLens(view, camera, acuity, team, progress)
                                             : TracePinhole(view, camera, acuity, team, progress);
   Complete(image, camera, team);
+  image.Averaged = team.Sum(image.Averaged);
   return image;
 }
 

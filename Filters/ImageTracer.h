@@ -5,6 +5,7 @@
 #include "Progress.h"
 #include "View.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace smokevis
@@ -29,6 +30,10 @@ struct TracedImage
   /// Id of the sign whose front the middle of the pixel sees, of the small sign whose middle the
   /// pixel holds, or -1.
   std::vector<int> SignIds;
+  /// How many pixels have a pattern or an edge in their footprint, and are means of samples.
+  std::size_t Averaged = 0;
+  /// Points of the lens that the image is the mean of; 0: one, its centre.
+  int LensPoints = 0;
 };
 
 /// Traces all pixels. A pixel that shows a plate of a sign or lamp averages over its footprint,

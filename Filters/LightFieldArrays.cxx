@@ -5,7 +5,9 @@
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkNew.h>
 
 #include <array>
 #include <cmath>
@@ -16,13 +18,22 @@ namespace
 {
 
 constexpr int Sides = 2;
+/// Field data of a smoke block, of the later parts of the cells that walls cut.
+const char* const PartDirect = "PartDirectFluence";
+const char* const PartMultiple = "PartMultipleFluence";
 
-vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int components)
+vtkSmartPointer<vtkFloatArray> MakeArray(const char* name, int components, vtkIdType tuples)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(block.GetNumberOfCells());
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int components)
+{
+  auto array = MakeArray(name, components, block.GetNumberOfCells());
   if (components == MaxBands)
   {
     array->SetComponentName(0, "R");
@@ -57,26 +68,98 @@ void CopyLanes(const Lanes& lanes, float* target)
   std::copy(lanes.Value, lanes.Value + Batches, target);
 }
 
-void StoreSmoke(const LightField& field, std::size_t firstCell, int bands, vtkDataSet& block)
+/// The numbers of the later parts of the cells of a grid, whose first cell and number of cells are
+/// given.
+std::vector<std::int64_t> LaterParts(
+  const Medium& smoke, std::size_t firstCell, vtkIdType numberOfCells)
+{
+  std::vector<std::int64_t> numbers;
+  const auto first = static_cast<std::int64_t>(firstCell);
+  for (const CellPart& part : smoke.Parts().Parts())
+  {
+    if (part.Number != part.Cell && part.Cell >= first && part.Cell < first + numberOfCells)
+    {
+      numbers.push_back(part.Number);
+    }
+  }
+  return numbers;
+}
+
+/// The batches of all the fluence of a cell; of one that walls cut, of the mean over its parts.
+Lanes CellFluence(const LightField& field, const Medium& smoke, std::int64_t cell, int band)
+{
+  Lanes sum;
+  double volume = 0.0;
+  const auto add = [&](std::int64_t number, double weight)
+  {
+    const std::size_t index = field.CellIndex(band, number);
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      sum[batch] += static_cast<float>(
+        weight * (field.DirectFluence[index] + field.MultipleFluence[index][batch]));
+    }
+    volume += weight;
+  };
+  smoke.Parts().ForEachPart(
+    cell, [&](std::int64_t number) { add(number, smoke.CellVolume(number)); });
+  for (float& value : sum.Value)
+  {
+    value = static_cast<float>(value / volume);
+  }
+  return sum;
+}
+
+void StoreSmoke(
+  const LightField& field, const Medium& smoke, std::size_t firstCell, int bands, vtkDataSet& block)
 {
   const auto fluence = AddArray(block, "Fluence", bands);
   const auto error = AddArray(block, "FluenceError", bands);
   const auto direct = AddArray(block, "DirectFluence", bands);
   const auto multiple = AddArray(block, "MultipleFluence", bands * Batches);
-  for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
+  const auto store = [&](std::int64_t number, vtkIdType tuple, vtkFloatArray& directArray,
+                       vtkFloatArray& multipleArray)
   {
     for (int band = 0; band < bands; ++band)
     {
-      const std::size_t index =
-        field.CellIndex(std::min(band, field.Bands - 1), static_cast<std::int64_t>(firstCell) + i);
-      const Lanes& lanes = field.MultipleFluence[index];
-      direct->SetTypedComponent(i, band, field.DirectFluence[index]);
-      fluence->SetTypedComponent(
-        i, band, static_cast<float>(field.DirectFluence[index] + Mean(lanes)));
-      error->SetTypedComponent(i, band, static_cast<float>(StandardError(lanes)));
-      CopyLanes(lanes, multiple->GetPointer((i * bands + band) * Batches));
+      const std::size_t index = field.CellIndex(std::min(band, field.Bands - 1), number);
+      directArray.SetTypedComponent(tuple, band, field.DirectFluence[index]);
+      CopyLanes(
+        field.MultipleFluence[index], multipleArray.GetPointer((tuple * bands + band) * Batches));
+    }
+  };
+  for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(firstCell) + i;
+    store(cell, i, *direct, *multiple);
+    const bool cut = smoke.Parts().Find(cell) != nullptr;
+    for (int band = 0; band < bands; ++band)
+    {
+      const int own = std::min(band, field.Bands - 1);
+      const std::size_t index = field.CellIndex(own, cell);
+      const Lanes all = cut ? CellFluence(field, smoke, cell, own) : field.MultipleFluence[index];
+      const float rest = cut ? 0.0F : field.DirectFluence[index];
+      fluence->SetTypedComponent(i, band, static_cast<float>(rest + Mean(all)));
+      error->SetTypedComponent(i, band, static_cast<float>(StandardError(all)));
     }
   }
+  vtkNew<vtkFieldData> fields;
+  fields->PassData(block.GetFieldData());
+  fields->RemoveArray(PartDirect);
+  fields->RemoveArray(PartMultiple);
+  const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, block.GetNumberOfCells());
+  if (!later.empty())
+  {
+    const auto count = static_cast<vtkIdType>(later.size());
+    const auto partDirect = MakeArray(PartDirect, bands, count);
+    const auto partMultiple = MakeArray(PartMultiple, bands * Batches, count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      store(later[i], i, *partDirect, *partMultiple);
+    }
+    fields->AddArray(partDirect);
+    fields->AddArray(partMultiple);
+  }
+  block.SetFieldData(fields);
 }
 
 void StorePatches(const LightField& field, std::size_t firstPatch, int bands, vtkDataSet& block)
@@ -114,11 +197,17 @@ class NeededArray
 {
 public:
   NeededArray(vtkDataSet& block, const std::string& blockName, const char* name, int components)
-      : Values_(block.GetCellData()->GetArray(name)),
-        Where_("cell array " + std::string(name) + " of block '" + blockName + "'")
+      : NeededArray(*block.GetCellData(), "cell array ", blockName, name, components,
+          block.GetNumberOfCells())
+  {
+  }
+
+  NeededArray(vtkFieldData& arrays, const std::string& kind, const std::string& blockName,
+    const char* name, int components, vtkIdType tuples)
+      : Values_(arrays.GetArray(name)), Where_(kind + name + " of block '" + blockName + "'")
   {
     if (!this->Values_ || this->Values_->GetNumberOfComponents() < components ||
-        this->Values_->GetNumberOfTuples() != block.GetNumberOfCells())
+        this->Values_->GetNumberOfTuples() != tuples)
     {
       throw Error(this->Where_, "it is missing or has another size than the light field needs",
         "Give the output of SmokeLightField, or a file that it was saved to");
@@ -153,18 +242,39 @@ private:
   std::string Where_;
 };
 
-void LoadSmoke(const SmokeBlock& block, std::size_t firstCell, LightField& field)
+void LoadSmoke(
+  const SmokeBlock& block, const Medium& smoke, std::size_t firstCell, LightField& field)
 {
-  const NeededArray direct(*block.Grid, block.Name, "DirectFluence", field.Bands);
-  const NeededArray multiple(*block.Grid, block.Name, "MultipleFluence", field.Bands * Batches);
-  for (vtkIdType i = 0; i < block.Grid->GetNumberOfCells(); ++i)
+  const auto load = [&field](std::int64_t number, vtkIdType tuple, const NeededArray& direct,
+                      const NeededArray& multiple)
   {
     for (int band = 0; band < field.Bands; ++band)
     {
-      const std::size_t index = field.CellIndex(band, static_cast<std::int64_t>(firstCell) + i);
-      field.DirectFluence[index] = direct.Get(i, band);
-      multiple.Get(i, band * Batches, field.MultipleFluence[index]);
+      const std::size_t index = field.CellIndex(band, number);
+      field.DirectFluence[index] = direct.Get(tuple, band);
+      multiple.Get(tuple, band * Batches, field.MultipleFluence[index]);
     }
+  };
+  const NeededArray direct(*block.Grid, block.Name, "DirectFluence", field.Bands);
+  const NeededArray multiple(*block.Grid, block.Name, "MultipleFluence", field.Bands * Batches);
+  const vtkIdType cells = block.Grid->GetNumberOfCells();
+  for (vtkIdType i = 0; i < cells; ++i)
+  {
+    load(static_cast<std::int64_t>(firstCell) + i, i, direct, multiple);
+  }
+  const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, cells);
+  if (later.empty())
+  {
+    return;
+  }
+  const auto count = static_cast<vtkIdType>(later.size());
+  vtkFieldData& fields = *block.Grid->GetFieldData();
+  const NeededArray partDirect(fields, "field array ", block.Name, PartDirect, field.Bands, count);
+  const NeededArray partMultiple(
+    fields, "field array ", block.Name, PartMultiple, field.Bands * Batches, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    load(later[i], i, partDirect, partMultiple);
   }
 }
 
@@ -190,12 +300,12 @@ void LoadPatches(const SurfaceBlock& block, std::size_t firstPatch, LightField& 
 } // namespace
 
 //------------------------------------------------------------------------------
-void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands)
+void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks& blocks, int bands)
 {
   std::size_t cell = 0;
   for (const SmokeBlock& block : blocks.Smoke)
   {
-    StoreSmoke(field, cell, bands, *block.Grid);
+    StoreSmoke(field, smoke, cell, bands, *block.Grid);
     cell += block.Grid->GetNumberOfCells();
   }
   std::vector<float>().swap(field.DirectFluence);
@@ -222,6 +332,13 @@ std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks)
     for (const char* const name : {"DirectFluence", "MultipleFluence"})
     {
       arrays.push_back(block.Grid->GetCellData()->GetArray(name));
+    }
+    for (const char* const name : {PartDirect, PartMultiple})
+    {
+      if (vtkDataArray* const array = block.Grid->GetFieldData()->GetArray(name))
+      {
+        arrays.push_back(array);
+      }
     }
   }
   for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
@@ -250,6 +367,17 @@ bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
   {
     share(*from.Smoke[i].Grid, *to.Smoke[i].Grid, "Fluence", "FluenceError", "DirectFluence",
       "MultipleFluence");
+    vtkNew<vtkFieldData> fields;
+    fields->PassData(to.Smoke[i].Grid->GetFieldData());
+    for (const char* const name : {PartDirect, PartMultiple})
+    {
+      fields->RemoveArray(name);
+      if (vtkDataArray* const array = from.Smoke[i].Grid->GetFieldData()->GetArray(name))
+      {
+        fields->AddArray(array);
+      }
+    }
+    to.Smoke[i].Grid->SetFieldData(fields);
   }
   const auto shareMeshes =
     [&share](const std::vector<SurfaceBlock>& sources, const std::vector<SurfaceBlock>& targets)
@@ -266,14 +394,11 @@ bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
 }
 
 //------------------------------------------------------------------------------
-LightField LoadLightField(const SceneBlocks& blocks, int bands)
+LightField LoadLightField(const SceneBlocks& blocks, const Medium& smoke, int bands)
 {
   LightField field;
   field.Bands = bands;
-  for (const SmokeBlock& block : blocks.Smoke)
-  {
-    field.Cells += block.Grid->GetNumberOfCells();
-  }
+  field.Cells = smoke.Cells();
   for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})
   {
     for (const SurfaceBlock& block : *group)
@@ -288,7 +413,7 @@ LightField LoadLightField(const SceneBlocks& blocks, int bands)
   std::size_t cell = 0;
   for (const SmokeBlock& block : blocks.Smoke)
   {
-    LoadSmoke(block, cell, field);
+    LoadSmoke(block, smoke, cell, field);
     cell += block.Grid->GetNumberOfCells();
   }
   std::size_t patch = 0;

@@ -16,9 +16,15 @@ namespace smokevis
 /// `Illuminance`, `IlluminanceError`, `IlluminanceBack` [lx] a band, `DirectIlluminance` with front
 /// and back of each band, and `MultipleIlluminance` with the batches of the front, then of the
 /// back, band after band.
-void StoreLightField(LightField&& field, const SceneBlocks& blocks, int bands);
+///
+/// A cell that walls cut is in parts, each with a light of its own: its `DirectFluence` and
+/// `MultipleFluence` are those of its first part, `Fluence` is the mean over the cell. The other
+/// parts' are in the field data of the smoke block, `PartDirectFluence` and `PartMultipleFluence`.
+/// @param smoke  of the scene that was solved
+void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks& blocks, int bands);
 
-/// The arrays that LoadLightField reads, in a fixed order, null where one is missing.
+/// The arrays that LoadLightField reads, in a fixed order, null where one is missing that every
+/// light field has.
 std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks);
 
 /// Gives blocks the light field of others; the arrays are shared. Returns false, and does nothing,
@@ -26,7 +32,8 @@ std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks);
 bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to);
 
 /// Reads the light field back. Throws Error where an array is missing or has another size.
+/// @param smoke  of the scene that the blocks describe
 /// @param bands  bands to read, the first ones of the file
-LightField LoadLightField(const SceneBlocks& blocks, int bands);
+LightField LoadLightField(const SceneBlocks& blocks, const Medium& smoke, int bands);
 
 } // namespace smokevis

@@ -116,7 +116,7 @@ void LightFieldInput::Load(vtkDataObject* input)
     {"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
       scene->SharesShapes() ? "those of the light field before hold the same shapes"
                             : "shapes are new"}};
-  auto field = std::make_shared<const LightField>(LoadLightField(blocks, bands));
+  auto field = std::make_shared<const LightField>(LoadLightField(blocks, scene->Smoke(), bands));
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
   for (vtkDataArray* const array : arrays)
   {

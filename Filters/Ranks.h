@@ -12,6 +12,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <utility>
@@ -93,6 +94,24 @@ public:
       this->Controller_->AllReduce(&own, &sum, 1, vtkCommunicator::SUM_OP);
     }
     return sum;
+  }
+
+  /// Which of some numbers are the same in all processes.
+  std::vector<bool> Alike(const std::vector<std::uint64_t>& own) const
+  {
+    std::vector<bool> alike(own.size(), true);
+    if (this->Count_ > 1 && !own.empty())
+    {
+      const std::vector<vtkTypeUInt64> send(own.begin(), own.end());
+      std::vector<vtkTypeUInt64> all(own.size() * this->Count_);
+      this->Controller_->AllGather(send.data(), all.data(), static_cast<vtkIdType>(own.size()));
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        const std::size_t number = i % own.size();
+        alike[number] = alike[number] && all[i] == all[number];
+      }
+    }
+    return alike;
   }
 
   /// A number of each process, by rank.

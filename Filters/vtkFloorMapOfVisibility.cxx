@@ -1,5 +1,6 @@
 #include "vtkFloorMapOfVisibility.h"
 
+#include "Agreement.h"
 #include "Errors.h"
 #include "EyeProperties.h"
 #include "FloorMap.h"
@@ -184,6 +185,26 @@ smokevis::FloorMapOptions vtkFloorMapOfVisibility::Prepare(const smokevis::View&
 }
 
 //------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::AddProperties(smokevis::Agreement& agreement) const
+{
+  agreement.Add("EyeHeight", this->EyeHeight);
+  agreement.Add("Resolution", this->Resolution, 2);
+  agreement.Add("Bounds", this->Bounds, 6);
+  agreement.Add("UseBox", this->UseBox);
+  agreement.Add("BoxPosition", this->BoxPosition, 3);
+  agreement.Add("BoxSize", this->BoxSize, 3);
+  agreement.Add("ContrastThreshold", this->ContrastThreshold);
+  agreement.Add("ThresholdSpread", this->ThresholdSpread);
+  agreement.Add("DarkLuminance", this->DarkLuminance);
+  agreement.Add("CutOff", this->CutOff);
+  agreement.Add("Acuity", this->Acuity);
+  agreement.Add("AdaptationLuminance", this->AdaptationLuminance);
+  agreement.Add("AdaptationTime", this->AdaptationTime);
+  agreement.Add("Glare", this->Glare);
+  agreement.Add("ObserverAge", this->ObserverAge);
+}
+
+//------------------------------------------------------------------------------
 void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
 {
   const smokevis::Ranks ranks;
@@ -197,6 +218,10 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
       view = &this->Implementation->Input.Get(input);
       options = this->Prepare(*view);
     });
+  smokevis::Agreement agreement(ranks);
+  agreement.Add("LightField", input);
+  this->AddProperties(agreement);
+  agreement.Check();
   std::tie(options.First, options.End) =
     ranks.Share(static_cast<std::size_t>(options.PlacesX) * options.PlacesY);
   smokevis::RankTeam team(this);

@@ -33,6 +33,7 @@
 
 namespace smokevis
 {
+class Agreement;
 struct FloorMapOptions;
 class Medium;
 class View;
@@ -194,6 +195,7 @@ private:
   std::array<double, 6> Area(const smokevis::Medium& smoke) const;
   /// Checks what is asked for against the light field.
   smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
+  void AddProperties(smokevis::Agreement& agreement) const;
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;

@@ -1,7 +1,7 @@
 #include "vtkSmokeLightField.h"
 
+#include "Agreement.h"
 #include "Errors.h"
-#include "Identity.h"
 #include "KeptOrigin.h"
 #include "KeptOutput.h"
 #include "LightFieldArrays.h"
@@ -201,8 +201,8 @@ void vtkSmokeLightField::SolveBlocks(Task& task)
     { field = smokevis::SolveLightField(*scene, solver, progress); });
   task.Waited = team.Waited();
   task.Report.insert(task.Report.end(), field.Report.begin(), field.Report.end());
-  ranks.Together(
-    this, [&] { smokevis::StoreLightField(std::move(field), task.Blocks, this->Bands); });
+  ranks.Together(this,
+    [&] { smokevis::StoreLightField(std::move(field), scene->Smoke(), task.Blocks, this->Bands); });
 }
 
 //------------------------------------------------------------------------------
@@ -235,6 +235,21 @@ smokevis::SceneOptions vtkSmokeLightField::Options(
   }
   report.push_back({"Albedo", options.Albedo, why});
   return options;
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::AddProperties(smokevis::Agreement& agreement) const
+{
+  agreement.Add("Albedo", this->Albedo);
+  agreement.Add("AngstromExponent", this->AngstromExponent);
+  agreement.Add("Bands", this->Bands);
+  agreement.Add("Wavelengths", this->Wavelengths, 3);
+  agreement.Add("DefaultReflectance", this->DefaultReflectance);
+  agreement.Add("SkyLuminance", this->SkyLuminance);
+  agreement.Add("Tolerance", this->Tolerance);
+  agreement.Add("SkipNeedlessWork", this->SkipNeedlessWork);
+  agreement.Add("Seed", this->Seed);
+  agreement.Add("PatchSize", this->PatchSize);
 }
 
 //------------------------------------------------------------------------------
@@ -282,12 +297,14 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
 }
 
 //------------------------------------------------------------------------------
-double vtkSmokeLightField::Solve(
-  vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output)
+double vtkSmokeLightField::Solve(vtkInformationVector** inputs, smokevis::Agreement& agreement,
+  vtkPartitionedDataSetCollection* output)
 {
   const smokevis::Ranks ranks;
   Task task;
   ranks.Together(this, [&] { this->Prepare(inputs, task); });
+  this->AddProperties(agreement);
+  agreement.Check();
   // Processes may have kept different things when one of them was stopped.
   if (ranks.Most(task.IsKept ? 0 : 1) == 0)
   {
@@ -322,24 +339,20 @@ int vtkSmokeLightField::RequestData(
   {
     // A parallel run asks for the whole and for pieces in turn, for which readers read anew: for
     // the same contents its former output is divided in another way, and nothing else is done.
+    smokevis::Agreement agreement(ranks);
+    agreement.Add("Smoke", inputVector[0]);
+    agreement.Add("Surfaces", inputVector[1]);
+    agreement.Add("Emitters", inputVector[2]);
     std::optional<std::vector<std::uint64_t>> contents;
     if (ranks.Count() > 1)
     {
-      contents.emplace();
-    }
-    for (int port = 0; port < this->GetNumberOfInputPorts() && contents; ++port)
-    {
-      for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-      {
-        contents->push_back(port);
-        contents->push_back(smokevis::Fingerprint(vtkDataObject::GetData(inputVector[port], i)));
-      }
+      contents = agreement.Sums();
     }
     own.Origin.Renew(this, outputVector, own.Kept, contents,
       [&]
       {
         const auto start = std::chrono::steady_clock::now();
-        const double waited = this->Solve(inputVector, output);
+        const double waited = this->Solve(inputVector, agreement, output);
         const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
         smokevis::ReportRanks(ranks, *output, all.count() - waited, waited);
       });

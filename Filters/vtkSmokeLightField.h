@@ -20,7 +20,9 @@
  * all input arrays and can be saved and read back. Added cell arrays, float, a component a band
  * unless said otherwise:
  * - smoke: `Fluence` and its standard error `FluenceError` [lx]; `DirectFluence`, its part that
- * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band;
+ * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band. Of a
+ * cell that walls cut, these two are those of its first part, and the field data of the smoke's
+ * block hold the others' as `PartDirectFluence` and `PartMultipleFluence`;
  * - surfaces and emitters: `Illuminance` of the front and its standard error `IlluminanceError`
  * [lx]; `IlluminanceBack`; `DirectIlluminance`, front and back of each band; `MultipleIlluminance`,
  * 16 batches of the front, then the back, of each band. Surfaces are cut into patches; `ParentCell`
@@ -46,6 +48,7 @@
 
 namespace smokevis
 {
+class Agreement;
 struct SceneBlocks;
 struct SceneDescription;
 struct SceneOptions;
@@ -195,7 +198,10 @@ private:
   struct Task;
 
   /// Together with all processes of a parallel run. Returns the time spent on the others [s].
-  double Solve(vtkInformationVector** inputs, vtkPartitionedDataSetCollection* output);
+  /// @param agreement that already has the inputs
+  double Solve(vtkInformationVector** inputs, smokevis::Agreement& agreement,
+    vtkPartitionedDataSetCollection* output);
+  void AddProperties(smokevis::Agreement& agreement) const;
   /// Collects the scene.
   void Prepare(vtkInformationVector** inputs, Task& task);
   /// Solves the light field of the scene and stores it in the scene's blocks.

@@ -1,5 +1,6 @@
 #include "vtkVisibilityImage.h"
 
+#include "Agreement.h"
 #include "Contrast.h"
 #include "Errors.h"
 #include "Eye.h"
@@ -11,6 +12,7 @@
 #include "MemoryGuard.h"
 #include "Photograph.h"
 #include "PropertyChecks.h"
+#include "RankReport.h"
 #include "RankTeam.h"
 #include "Ranks.h"
 #include "SignChoice.h"
@@ -26,8 +28,11 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 vtkStandardNewMacro(vtkVisibilityImage);
 
@@ -259,19 +264,66 @@ vtkVisibilityImage::Shot vtkVisibilityImage::Prepare(vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
+void vtkVisibilityImage::AddProperties(smokevis::Agreement& agreement) const
+{
+  agreement.Add("CameraPosition", this->CameraPosition, 3);
+  agreement.Add("TargetSign", this->TargetSign);
+  agreement.Add(
+    "TargetSignName", std::string_view(this->TargetSignName ? this->TargetSignName : ""));
+  agreement.Add("CameraFocalPoint", this->CameraFocalPoint, 3);
+  agreement.Add("CameraViewUp", this->CameraViewUp, 3);
+  agreement.Add("FocalLength", this->FocalLength);
+  agreement.Add("SensorSize", this->SensorSize, 2);
+  agreement.Add("FNumber", this->FNumber);
+  agreement.Add("CameraModel", this->CameraModel);
+  agreement.Add("PixelBinning", this->PixelBinning);
+  agreement.Add("FocusDistance", this->FocusDistance);
+  agreement.Add("LensBlur", this->LensBlur);
+  agreement.Add("ImageSize", this->ImageSize, 2);
+  agreement.Add("Margin", this->Margin);
+  agreement.Add("Acuity", this->Acuity);
+}
+
+//------------------------------------------------------------------------------
 void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph)
 {
   const smokevis::Ranks ranks;
   Shot shot;
   ranks.Together(this, [&] { shot = this->Prepare(input); });
+  smokevis::Agreement agreement(ranks);
+  agreement.Add("LightField", input);
+  this->AddProperties(agreement);
+  agreement.Check();
   smokevis::RankTeam team(this);
+  const auto start = std::chrono::steady_clock::now();
   team.Run(0.1, 0.95,
     [&](smokevis::Progress& progress)
     {
       shot.Image =
         smokevis::TraceImage(*shot.View, shot.Camera, shot.Observer.Acuity, team, progress);
     });
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+  const std::vector<double> seconds = ranks.Each(all.count() - team.Waited());
   ranks.Together(this, [&] { this->Develop(shot, output, photograph); });
+  this->Report(shot, seconds, *output);
+}
+
+//------------------------------------------------------------------------------
+void vtkVisibilityImage::Report(
+  const Shot& shot, const std::vector<double>& seconds, vtkImageData& output) const
+{
+  std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
+  report.push_back({"pixels", static_cast<double>(shot.Image.Luminance.size()),
+    shot.Target >= 0 ? "the target sign fills the picture but for the margin"
+                     : "of the sensor, along the line of sight"});
+  report.push_back({"pixels that are means of samples", static_cast<double>(shot.Image.Averaged),
+    "a pattern or an edge lies in what they show"});
+  report.push_back({"points of the lens", std::max(1.0, double(shot.Image.LensPoints)),
+    shot.Image.LensPoints > 0 ? "the picture is the mean over the aperture"
+                              : "without LensBlur the lens is a pinhole"});
+  smokevis::AddWorkReport(output, report);
+  smokevis::ReportRanks(
+    *output.GetFieldData(), {{"seconds", seconds, "tracing its pixels, but for waiting"}});
 }
 
 //------------------------------------------------------------------------------

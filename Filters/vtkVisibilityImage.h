@@ -35,6 +35,8 @@
  * `CameraPosition`, `CameraForward`, `CameraUp`, and `CameraWindow`, the tangents of the angles to
  * the left, right, lower and upper edge. Of the lens: `ImageDistance` [mm], `ObjectDistance` [m,
  * infinite where it is focused far away] and `Magnification`; of the photograph: `ShutterTime` [s].
+ * What was done, how often and why: `WorkReportWhat`, `WorkReportCount`, `WorkReportWhy`; their
+ * last rows are the seconds that each process took to trace its pixels.
  */
 #ifndef vtkVisibilityImage_h
 #define vtkVisibilityImage_h
@@ -43,8 +45,14 @@
 #include <vtkImageAlgorithm.h>
 
 #include <memory>
+#include <vector>
 
 class vtkStringArray;
+
+namespace smokevis
+{
+class Agreement;
+} // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkVisibilityImage : public vtkImageAlgorithm
 {
@@ -308,7 +316,10 @@ private:
   Shot Prepare(vtkDataObject* input);
   /// Takes and develops a shot, together with all processes of a parallel run.
   void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
+  void AddProperties(smokevis::Agreement& agreement) const;
   void Develop(const Shot& shot, vtkImageData* output, vtkImageData* photograph);
+  /// @param seconds that each process has worked
+  void Report(const Shot& shot, const std::vector<double>& seconds, vtkImageData& output) const;
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};
   int TargetSign = -1;

@@ -226,11 +226,12 @@ Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
   const EmitterSet& lights = this->Scene_.Lights();
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
+  const bool part = this->Scene_.Smoke().Parts().Find(cell) != nullptr;
   double distance = 1e300;
   for (NearLight& light : near.Lights)
   {
     light.Clear = this->Direct_.Clear(light.Light, cell);
-    if (!light.Clear || !this->NearFields_[light.Light])
+    if (!light.Clear || !this->NearFields_[light.Light] || part)
     {
       light.Mean = this->Direct_.CellFluence(light.Light, cell);
     }
@@ -241,7 +242,7 @@ Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
   {
     return {};
   }
-  if (near.Close)
+  if (near.Close && !part)
   {
     return this->OthersFluence(cell, near);
   }
@@ -253,7 +254,11 @@ Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
   }
   for (const NearLight& light : near.Lights)
   {
-    for (int point = 0; point < 8; ++point)
+    for (std::size_t band = 0; band < this->Shapes_.size() && part; ++band)
+    {
+      others[band] -= light.Mean[band];
+    }
+    for (int point = 0; point < 8 && !part; ++point)
     {
       const Vec3 share(Nodes2[point & 1], Nodes2[point >> 1 & 1], Nodes2[point >> 2 & 1]);
       const Spectrum value =

@@ -23,7 +23,8 @@ public:
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
   Spectrum Fluence(std::size_t light, const Vec3& point, bool clear = false) const;
-  /// Whether the corners and the centre of a smoke cell all see the whole of a light.
+  /// Whether the corners and the centre of a smoke cell, or the samples of its part, all see the
+  /// whole of a light.
   bool Clear(std::size_t light, std::int64_t cell) const;
   /// Illuminance at a point of a surface with a unit normal [lx].
   Spectrum Illuminance(
@@ -103,6 +104,8 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
+  /// Mean fluence over a part of a cell that walls cut.
+  Spectrum PartFluence(std::size_t light, const CellPart& part) const;
   Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
     bool clear, std::optional<double> extinction) const;
   /// Largest optical depth along an edge of a box, of any band.

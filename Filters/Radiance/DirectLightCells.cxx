@@ -78,6 +78,12 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  if (const CellPart* part = this->Scene_.Smoke().Parts().Find(cell))
+  {
+    return std::all_of(part->Fine.begin(), part->Fine.end(),
+      [&](const PartSample& sample)
+      { return this->VisibleShare(root, part->Centre + Vec3(sample.Offset)) == 1.0; });
+  }
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
   // Slightly inside, since cells often end at walls.
@@ -96,6 +102,10 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
 Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
 {
   const Medium& smoke = this->Scene_.Smoke();
+  if (const CellPart* part = smoke.Parts().Find(cell))
+  {
+    return this->PartFluence(light, *part);
+  }
   const EmitterSet& lights = this->Scene_.Lights();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 centre = smoke.CellCentre(cell);
@@ -105,6 +115,62 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
     std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
   return this->BoxFluence(
     light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt);
+}
+
+Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const double distance = root.Distance(part.Centre);
+  const double edge = std::max({part.Size.x, part.Size.y, part.Size.z});
+  const double steep = edge * root.Law.Sharpness();
+  const double depth = smoke.Extinction(part.Cell) * this->Scene_.LargestScale() * edge;
+  Spectrum sum{};
+  const auto add = [&](const Vec3& point, double share, bool clear)
+  {
+    const Spectrum value = this->Fluence(light, point, clear);
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] += share * value[band];
+    }
+  };
+  if (steep > BoxRatio * distance)
+  {
+    // As fine as whole cells are cut beside a light: the middles of the boxes that lie in the part.
+    int boxes = 4;
+    while (boxes < 1 << BoxSplits && steep > 2.0 * BoxRatio * distance)
+    {
+      boxes *= 2;
+    }
+    const Box bounds = smoke.BoxOf(part.Cell);
+    const Vec3 size = bounds.Upper - bounds.Lower;
+    std::vector<Vec3> inside;
+    for (int i = 0; i < boxes * boxes * boxes; ++i)
+    {
+      const Vec3 place(i % boxes, i / boxes % boxes, i / (boxes * boxes));
+      const Vec3 point = bounds.Lower + (place + 0.5) / static_cast<double>(boxes) * size;
+      if (smoke.Parts().Locate(part.Cell, point) == part.Number)
+      {
+        inside.push_back(point);
+      }
+    }
+    if (inside.size() >= part.Fine.size())
+    {
+      const bool clear = this->Clear(light, part.Number);
+      for (const Vec3& point : inside)
+      {
+        add(point, 1.0 / static_cast<double>(inside.size()), clear);
+      }
+      return sum;
+    }
+  }
+  const bool flat = depth < FlatDepth && steep < FlatRatio * distance;
+  for (const PartSample& sample : flat ? part.Coarse : part.Fine)
+  {
+    add(part.Centre + Vec3(sample.Offset), sample.Share, false);
+  }
+  return sum;
 }
 
 double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
@@ -259,6 +325,11 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
       for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
       {
         const std::int64_t cell = smoke.Cell(block, place);
+        if (smoke.Parts().Find(cell))
+        {
+          // The parts of a cell are measured each by itself.
+          continue;
+        }
         const Spectrum value =
           ways ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
                    Trilinear(*ways, BlockShare(block, place)))

@@ -105,6 +105,35 @@ std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block)
   return order;
 }
 
+double DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sums)
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const std::vector<CellPart>& parts = smoke.Parts().Parts();
+  if (parts.empty())
+  {
+    return 0.0;
+  }
+  this->Field_.Report.push_back({"parts of cells", static_cast<double>(parts.size()),
+    "surfaces or plates cut the cells: each part has light of its own"});
+  constexpr double share = 0.5 * CellShare;
+  this->ForOwn(parts.size(), 16, 0.0, share,
+    [&](std::size_t part)
+    {
+      const std::int64_t cell = parts[part].Number;
+      for (std::size_t light = 0; light < this->Scene_.Lights().Lights().size(); ++light)
+      {
+        const Spectrum value = direct.CellFluence(light, cell);
+        for (int band = 0; band < this->Field_.Bands; ++band)
+        {
+          sums[cell][band] += value[band];
+        }
+      }
+    });
+  this->Team_.Complete<Spectrum>(
+    parts.size(), [&](std::size_t part, auto&& take) { take(sums[parts[part].Number]); });
+  return share;
+}
+
 void DirectSolve::Cells()
 {
   const Medium& smoke = this->Scene_.Smoke();
@@ -115,9 +144,10 @@ void DirectSolve::Cells()
   const DirectLight direct(this->Scene_);
   const std::vector<Medium::Block> blocks = smoke.Blocks(BlockEdge);
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
+  const double partShare = this->AddParts(direct, sums);
   std::atomic<std::size_t> told{0};
   std::atomic<std::size_t> negligible{0};
-  this->ForOwn(blocks.size(), 1, 0.0, CellShare,
+  this->ForOwn(blocks.size(), 1, partShare, CellShare,
     [&](std::size_t block)
     {
       for (const std::size_t light : this->StrongestFirst(blocks[block]))

@@ -8,6 +8,8 @@
 namespace smokevis
 {
 
+class DirectLight;
+
 /// Works out the light that comes straight from the emitters, in parallel: blocks of cells and
 /// patches do not depend on each other.
 class DirectSolve
@@ -25,6 +27,8 @@ public:
 private:
   /// Lights in the order of what they would send to a block through clear air.
   std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
+  /// Adds the light in the parts of cells that walls cut; returns the share of the work.
+  double AddParts(const DirectLight& direct, std::vector<Spectrum>& sums);
   /// Runs body(i) for this process's items of so many, in steps between which progress is reported.
   /// @param grain how many of them are worth a task
   template <class Body>

@@ -152,8 +152,7 @@ LineSweep::LineSweep(
   this->Extinction_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    const Vec3 size = smoke.CellSize(cell);
-    const double own = size.x * size.y * size.z;
+    const double own = smoke.CellVolume(static_cast<std::int64_t>(cell));
     this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));

@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
+/// Share of a cell's edge behind its face at which its neighbour is sought.
+constexpr double JustBehind = 1e-3;
 
 void CheckGrid(const SmokeGrid& grid)
 {
@@ -171,8 +173,25 @@ Medium::Medium(std::vector<SmokeGrid> grids)
   }
 }
 
-const Medium::Grid& Medium::GridOf(std::int64_t cell, std::array<int, 3>& index) const
+void Medium::Divide(CellParts parts)
 {
+  for (const CellPart& part : parts.Parts())
+  {
+    if (part.Number != part.Cell)
+    {
+      this->Extinction_.push_back(this->Extinction_[part.Cell]);
+      if (!this->EmittedLuminance_.empty())
+      {
+        this->EmittedLuminance_.push_back(this->EmittedLuminance_[part.Cell]);
+      }
+    }
+  }
+  this->Parts_ = std::move(parts);
+}
+
+const Medium::Grid& Medium::GridOf(std::int64_t number, std::array<int, 3>& index) const
+{
+  const std::int64_t cell = this->Parts_.CellOf(number);
   const auto after = std::upper_bound(this->Grids_.begin(), this->Grids_.end(), cell,
     [](std::int64_t value, const Grid& grid) { return value < grid.FirstCell; });
   const Grid& grid = *(after - 1);
@@ -186,6 +205,10 @@ const Medium::Grid& Medium::GridOf(std::int64_t cell, std::array<int, 3>& index)
 
 Vec3 Medium::CellCentre(std::int64_t cell) const
 {
+  if (const CellPart* part = this->Parts_.Find(cell))
+  {
+    return part->Centre;
+  }
   std::array<int, 3> index;
   const Grid& grid = this->GridOf(cell, index);
   Vec3 centre;
@@ -197,8 +220,22 @@ Vec3 Medium::CellCentre(std::int64_t cell) const
   return centre;
 }
 
+double Medium::CellVolume(std::int64_t cell) const
+{
+  if (const CellPart* part = this->Parts_.Find(cell))
+  {
+    return part->Volume;
+  }
+  const Vec3 size = this->CellSize(cell);
+  return size.x * size.y * size.z;
+}
+
 Vec3 Medium::CellSize(std::int64_t cell) const
 {
+  if (const CellPart* part = this->Parts_.Find(cell))
+  {
+    return part->Size;
+  }
   std::array<int, 3> index;
   const Grid& grid = this->GridOf(cell, index);
   Vec3 size;
@@ -208,6 +245,20 @@ Vec3 Medium::CellSize(std::int64_t cell) const
     size[axis] = node[1] - node[0];
   }
   return size;
+}
+
+Box Medium::BoxOf(std::int64_t cell) const
+{
+  std::array<int, 3> index;
+  const Grid& grid = this->GridOf(cell, index);
+  Box box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* node = grid.Nodes[axis].data() + index[axis];
+    box.Lower[axis] = node[0];
+    box.Upper[axis] = node[1];
+  }
+  return box;
 }
 
 std::vector<Medium::Block> Medium::Blocks(int edge) const
@@ -234,6 +285,12 @@ std::vector<Medium::Block> Medium::Blocks(int edge) const
 
 std::int64_t Medium::Locate(const Vec3& point) const
 {
+  const std::int64_t cell = this->LocateInGrids(point);
+  return cell < 0 ? cell : this->Parts_.Locate(cell, point);
+}
+
+std::int64_t Medium::LocateInGrids(const Vec3& point) const
+{
   for (const int rank : this->Rank_)
   {
     const Grid& grid = this->Grids_[rank];
@@ -257,23 +314,33 @@ std::int64_t Medium::Neighbour(std::int64_t cell, int axis, int side) const
     const double* node = grid.Nodes[other].data() + index[other];
     point[other] = 0.5 * (node[0] + node[1]);
   }
+  if (const CellPart* part = this->Parts_.Find(cell))
+  {
+    point = part->Centre;
+  }
   const bool inside = moved >= 0 && moved < grid.Size[axis];
+  std::int64_t found = -1;
   if (inside && !this->Overlap_)
   {
     index[axis] = moved;
-    return grid.Cell(index);
-  }
-  if (inside)
-  {
-    const double* node = grid.Nodes[axis].data() + moved;
-    point[axis] = 0.5 * (node[0] + node[1]);
+    found = grid.Cell(index);
   }
   else
   {
-    const double* node = grid.Nodes[axis].data() + index[axis];
-    point[axis] = (side == 0 ? node[0] : node[1]) + step * 0.25 * (node[1] - node[0]);
+    const double* node = grid.Nodes[axis].data() + (inside ? moved : index[axis]);
+    point[axis] = inside ? 0.5 * (node[0] + node[1])
+                         : (side == 0 ? node[0] : node[1]) + step * 0.25 * (node[1] - node[0]);
+    found = this->LocateInGrids(point);
   }
-  return this->Locate(point);
+  if (found < 0 || !this->Parts_.Find(found))
+  {
+    return found;
+  }
+  // Of a cell that walls cut, the part right behind the face.
+  const double* node = grid.Nodes[axis].data() + (moved - step);
+  const double width = node[1] - node[0];
+  point[axis] = (side == 0 ? node[0] : node[1]) + step * JustBehind * width;
+  return this->Parts_.Locate(found, point);
 }
 
 template <class Visit>
@@ -442,10 +509,17 @@ void Medium::Walk(const Vec3& origin, const Vec3& direction, double begin, doubl
   std::vector<Segment>& pieces) const
 {
   pieces.clear();
+  const auto add = [&pieces](std::int64_t cell, double from, double to) {
+    pieces.push_back({cell, from, to});
+  };
+  if (this->Parts_.Empty())
+  {
+    this->ForEachPiece(origin, direction, begin, end, add);
+    return;
+  }
   this->ForEachPiece(origin, direction, begin, end,
-    [&pieces](std::int64_t cell, double from, double to) {
-      pieces.push_back({cell, from, to});
-    });
+    [&](std::int64_t cell, double from, double to)
+    { this->Parts_.Divide(cell, origin, direction, from, to, add); });
 }
 
 double Medium::OpticalDepth(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Box.h"
+#include "CellParts.h"
 #include "Types.h"
 
 #include <string>
@@ -38,6 +39,8 @@ struct Segment
 
 /// All smoke of a scene. Cells are numbered through, grid after grid as given, x fastest. Where
 /// grids overlap, the one with the smaller cells counts; outside all grids there is no smoke.
+/// Of a cell that walls cut, each part counts as a cell: the first keeps the number, the others
+/// have numbers behind those of all grids.
 class Medium
 {
 public:
@@ -45,7 +48,13 @@ public:
   /// Checks the grids; throws Error for bad nodes, sizes, NaN or negative extinction.
   explicit Medium(std::vector<SmokeGrid> grids);
 
+  /// Parts the cells that walls cut.
+  void Divide(CellParts parts);
+
   std::size_t Cells() const { return this->Extinction_.size(); }
+  /// Those of the grids alone.
+  std::size_t GridCells() const { return this->Cells() - this->Parts_.Added(); }
+  const CellParts& Parts() const { return this->Parts_; }
   bool Empty() const { return this->Extinction_.empty(); }
   /// Extinction coefficient at 633 nm [1/m].
   float Extinction(std::int64_t cell) const { return this->Extinction_[cell]; }
@@ -57,7 +66,11 @@ public:
     return this->EmittedLuminance_.empty() ? 0.0F : this->EmittedLuminance_[cell];
   }
   Vec3 CellCentre(std::int64_t cell) const;
+  /// Edges; of a part those of a box that is as far spread along each axis.
   Vec3 CellSize(std::int64_t cell) const;
+  double CellVolume(std::int64_t cell) const;
+  /// Of a whole cell of a grid.
+  Box BoxOf(std::int64_t cell) const;
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
   /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it
@@ -103,7 +116,7 @@ public:
         {
           for (int x = first[0]; x <= last[0]; ++x)
           {
-            visit(grid.Cell({x, y, z}));
+            this->Parts_.ForEachPart(grid.Cell({x, y, z}), visit);
           }
         }
       }
@@ -157,6 +170,8 @@ private:
   static void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction,
     const Vec3& inverse, double begin, double end, Visit&& visit);
   const Grid& GridOf(std::int64_t cell, std::array<int, 3>& index) const;
+  /// The cell of a grid that holds a point, or -1.
+  std::int64_t LocateInGrids(const Vec3& point) const;
 
   /// As given, so that cells are numbered in that order.
   std::vector<Grid> Grids_;
@@ -167,6 +182,7 @@ private:
   bool Even_ = false;
   std::vector<float> Extinction_;
   std::vector<float> EmittedLuminance_;
+  CellParts Parts_;
   float MaximumExtinction_ = 0.0F;
   double LargestEdge_ = 0.0;
   Vec3 Lower_{0.0};

@@ -2,6 +2,7 @@
 
 #include "Scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -51,7 +52,12 @@ OpenFaces::OpenFaces(const Scene& scene)
             {
               Vec3 target = centre;
               target[axis] = smoke.CellCentre(other)[axis];
-              const double length = std::abs(target[axis] - centre[axis]);
+              double length = std::abs(target[axis] - centre[axis]);
+              if (smoke.Parts().Find(static_cast<std::int64_t>(cell)) || smoke.Parts().Find(other))
+              {
+                target = smoke.CellCentre(other);
+                length = std::max(glm::distance(target, centre), 1e-300);
+              }
               open = !shapes.Occluded(centre, (target - centre) / length, 0.0, length);
             }
             this->Faces_[cell] |= static_cast<unsigned char>(open ? 1 << (2 * axis + side) : 0);

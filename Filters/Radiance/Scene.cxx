@@ -1,5 +1,6 @@
 #include "Scene.h"
 
+#include "CutCells.h"
 #include "Errors.h"
 #include "Exposure.h"
 
@@ -150,6 +151,10 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   this->ExposedArea_ = this->SharesShapes_ ? earlier->ExposedArea_
                                            : ExposedAreas(*this->Shapes_,
                                                this->Description_.Surfaces, this->EmitterMesh_);
+  if (!this->Smoke_.Empty())
+  {
+    this->Smoke_.Divide(FindCellParts(*this));
+  }
 }
 
 } // namespace smokevis

@@ -47,10 +47,9 @@ BlockMeans::BlockMeans(
   std::vector<float> weights(field.Cells);
   for (std::size_t cell = 0; cell < field.Cells; ++cell)
   {
-    const Vec3 size = smoke.CellSize(static_cast<std::int64_t>(cell));
+    const auto own = static_cast<std::int64_t>(cell);
     weights[cell] =
-      static_cast<float>(scene.Albedo() * smoke.Extinction(static_cast<std::int64_t>(cell)) *
-                         size.x * size.y * size.z);
+      static_cast<float>(scene.Albedo() * smoke.Extinction(own) * smoke.CellVolume(own));
   }
   this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
     weights);

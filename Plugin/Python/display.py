@@ -58,28 +58,19 @@ def show_image(image=None, view=None):
     return shown
 
 
-def show_smoke(smoke=None, view=None, most=None, cell=0.5):
-    """Smoke as a volume, grey, clear at 0 and thickest at ``most`` [1/m] (the largest Extinction unless given).
-
-    ParaView does not draw several meshes as one volume, so they are sampled into an image with cells of the size
-    ``cell`` [m]."""
+def show_smoke(smoke=None, view=None, factor=1.0):
+    """Smoke of any source as the volume that a run's smoke opens as, drawn ``factor`` times as thick as it is. Returns
+    the representation."""
     smoke = smoke or simple.GetActiveSource()
     view = view or simple.GetActiveViewOrCreate("RenderView")
-    bounds = smoke.GetDataInformation().GetBounds()
-    sampled = simple.ResampleToImage(
-        registrationName="Smoke as one image", Input=smoke,
-        SamplingDimensions=[max(2, 1 + round((bounds[2 * i + 1] - bounds[2 * i]) / cell)) for i in range(3)])
-    sampled.UpdatePipeline(view.ViewTime)
-    simple.Hide(smoke, view)
-    shown = simple.Show(sampled, view)
-    simple.ColorBy(shown, ("POINTS", "Extinction"))
-    shown.SetRepresentationType("Volume")
-    array = sampled.PointData["Extinction"]
-    most = most or (array.GetRange()[1] if array else 1.0) or 1.0
-    simple.GetColorTransferFunction("Extinction").RGBPoints = [0, 0.8, 0.8, 0.8, most, 0.25, 0.25, 0.25]
-    simple.GetOpacityTransferFunction("Extinction").Points = [0, 0, 0.5, 0, most, 0.3, 0.5, 0]
-    shown.ScalarOpacityUnitDistance = 2.0
-    shown.SetScalarBarVisibility(view, True)
+    shown = simple.GetRepresentation(smoke, view)
+    if shown.GetXMLName() != "SmokeRepresentation":
+        # How something is shown stays what it was made as.
+        simple.Delete(shown)
+        shown = simple.Show(smoke, view, "SmokeRepresentation")
+    shown.SetRepresentationType("Smoke")
+    shown.ExtinctionFactor = factor
+    shown.Visibility = 1
     return shown
 
 

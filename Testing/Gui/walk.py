@@ -64,7 +64,9 @@ def walk():
     simple.RenameSource("Hall", run)
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.AnimationTime = 600.0
-    smoke = display.show_smoke(run, view, most=1.0).Input
+    shown = simple.Show(run, view)
+    assert shown.Representation == "Smoke", shown.Representation
+    shown.ExtinctionFactor = 0.2
     look_down(view)
     picture("1_smoke", run)
 
@@ -98,7 +100,7 @@ def walk():
     floor = simple.FloorMapOfVisibility(registrationName="Floor map", LightField=light, Resolution=[22, 14],
                                         UseBox=1, BoxPosition=HALL[::2], BoxSize=HALL[1::2])
     floor.UpdatePipeline(600.0)
-    simple.Hide(smoke, view)
+    simple.Hide(run, view)
     shown = simple.Show(floor, view)
     colors = list(simple.GetColorTransferFunction("Visibility").RGBPoints)
     assert list(shown.ColorArrayName) == ["POINTS", "Visibility"] and colors[-4:] == [1, 1, 1, 1], colors

@@ -21,6 +21,7 @@ modules=$(dirname "$(find "$prefix" -type d -name smokevisibility -path '*dist-p
 PYTHONPATH=$modules /usr/bin/python3 -c "
 from smokevisibility.SmokeReaders import vtkCADReader
 from smokevisibility.SmokeFilters import vtkExitSignSource
+from smokevisibility.SmokeDisplay import vtkSmokeVolumeRepresentation
 reader = vtkCADReader()
 reader.SetFileName('$sample')
 reader.Update()

@@ -14,7 +14,7 @@ assert abs(bounds[5] - 3.0) < 1e-6, bounds
 simple.ExitSign().UpdatePipeline()
 with open("/proc/self/maps") as file:
     libraries = {line.split()[-1] for line in file if "libSmoke" in line or "SmokeVisibility.so" in line}
-assert len(libraries) == 3, libraries
+assert len(libraries) == 4, libraries
 assert all(library.startswith(prefix + os.sep) for library in libraries), libraries
 
 if len(sys.argv) > 3:

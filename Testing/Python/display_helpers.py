@@ -42,7 +42,12 @@ assert display.show_signs(table, view).ColorArrayName[1] == "Luminance"
 run = simple.FDSSmokeReader(FileName=os.path.join(sys.argv[2], "Room", "fds", "room.smv"))
 run.UpdatePipeline(20.0)
 volume = display.show_smoke(run, view)
-assert volume.Representation == "Volume" and volume.ColorArrayName[1] == "Extinction"
+assert volume.Representation == "Smoke" and volume.ExtinctionFactor == 1
+assert display.show_smoke(run, view, 0.5) is volume or volume.ExtinctionFactor == 0.5
+own = scenes.producer(scenes.image((4, 4, 4), (1, 1, 1)), "Own smoke")
+simple.Show(own, view)
+assert display.show_smoke(own, view).Representation == "Smoke"
+assert sum(getattr(shown, "Input", None) == own for shown in view.Representations) == 1
 image = simple.VisibilityImage(LightField=light, ImageSize=[8, 8], CameraPosition=[1, 0.5, 0.5], TargetSign=3)
 flat = simple.CreateView("RenderView")
 assert display.show_image(image, flat).ColorArrayName[1] == "Luminance"

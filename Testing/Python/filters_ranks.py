@@ -135,12 +135,27 @@ def check_abort(proxy, rank, ranks, lines):
 def check_disagreement(proxy, rank, ranks, lines):
     """Processes that were given different things to do say so, and none waits for the others."""
     light = proxy.GetClientSideObject()
-    set_own(proxy, PatchSize=0.9 if rank == 0 else 0.8)
-    with scenes.Messages() as messages:
-        light.UpdateTimeStep(TIME, 0, 1, 0)
-    assert ("the processes do not agree" in messages.text) == (ranks > 1), (rank, messages.text)
-    assert (light.GetOutputDataObject(0).GetNumberOfCells() == 0) == (ranks > 1)
-    set_own(proxy, PatchSize=2.0)
+
+    def check(name):
+        with scenes.Messages() as messages:
+            light.UpdateTimeStep(TIME, 0, 1, 0)
+        said = "the processes were not given the same: %s differ" % name in messages.text
+        assert said == (ranks > 1), (rank, messages.text)
+        assert (light.GetOutputDataObject(0).GetNumberOfCells() == 0) == (ranks > 1)
+
+    # Of the same size, or not: patches; a seed; smoke and a sign of other values in as many cells.
+    for name, first, others in (("PatchSize", 0.9, 0.8), ("Seed", 7, 8)):
+        usual = getattr(proxy, name)
+        set_own(proxy, **{name: first if rank == 0 else others})
+        check(name)
+        set_own(proxy, **{name: usual})
+    run, sign = simple.FindSource("FDSSmokeReader1"), simple.FindSource("ExitSign1")
+    for name, source, values in (("Smoke", run, {"MassExtinctionCoefficient": 8000 + rank}),
+                                 ("Emitters", sign, {"Luminance": 400 + rank})):
+        usual = {key: getattr(source, key) for key in values}
+        set_own(source, **values)
+        check(name)
+        set_own(source, **usual)
     light.UpdateTimeStep(TIME, 0, 1, 0)
     digest(light.GetOutputDataObject(0), lines, "after an error light")
 
@@ -149,7 +164,8 @@ def check_errors(rank, ranks):
     """What one process lacks, or cannot solve, is an error for all, and nobody waits for it."""
     smoke = simple.FindSource("FDSSmokeReader1")
     with tempfile.TemporaryDirectory() as temporary:
-        for case, message in (("lacks", "no such file"), ("dark", "nothing emits light")):
+        # One process lacks a file, or has one with another number in it.
+        for case in ("lacks", "dark"):
             table = os.path.join(temporary, case + ".csv")
             if rank == 0 or case == "dark":
                 with open(table, "w") as file:
@@ -158,7 +174,8 @@ def check_errors(rank, ranks):
                 Smoke=smoke, Emitters=[simple.ExitSign(SignTable=table)], Tolerance=0.5), Resolution=[2, 2])
             with scenes.Messages() as messages:
                 broken.GetClientSideObject().UpdateTimeStep(TIME, 0, 1, 0)
-            wanted = (message if rank > 0 else "another process") if ranks > 1 else ""
+            wanted = "Emitters differ" if case == "dark" else "no such file" if rank > 0 else "another process"
+            wanted = wanted if ranks > 1 else ""
             assert wanted in messages.text, (rank, messages.text)
             assert broken.GetClientSideObject().GetOutputDataObject(0).GetNumberOfPoints() == (
                 4 if ranks == 1 else 0)
@@ -194,11 +211,15 @@ def check_ranks():
         algorithm.UpdateTimeStep(TIME, 0, 1, 0)
         data = algorithm.GetOutputDataObject(0)
         digest(data, lines, name)
-        if name in ("light", "map"):
+        if name in ("light", "image", "map"):
             told = work_report(data)
-            assert [f"seconds of process {i}" in told for i in range(ranks)] == [ranks > 1] * ranks, told
+            always = name == "image"
+            assert [f"seconds of process {i}" in told for i in range(ranks)] == [ranks > 1 or always] * ranks, told
         if name == "light":
             check_shares(told, ranks)
+        if name == "image":
+            assert told["pixels"] == 3200 and 0 < told["pixels that are means of samples"] < 3200, told
+            lines.append("after all, image means of samples %d" % told["pixels that are means of samples"])
     # A view asks for pieces: every block is drawn once, and nothing is solved anew.
     light, image, floor, _ = (proxy.GetClientSideObject() for proxy in filters)
     starts = []

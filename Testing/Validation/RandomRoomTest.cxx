@@ -1,5 +1,6 @@
 // The solver against the reference integrator in rooms drawn at random.
 #include "Contrast.h"
+#include "ReferenceContrast.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -10,52 +11,6 @@ namespace
 {
 
 using namespace smokevis;
-
-/// Contrast of a sign by path tracing a raster of points on its plate. Noise adds to the variance
-/// of the raster: its expectation, the mean square of the points' standard errors, is taken off.
-Estimate ReferenceContrast(const Solved& solved, const Vec3& eye, std::uint64_t samples)
-{
-  const ReferenceIntegrator reference(*solved.TheScene);
-  const Sign& sign = solved.TheScene->Lights().Signs()[0];
-  const std::vector<EmitterCell>& cells = solved.TheScene->Lights().Cells();
-  constexpr int Rows = 9;
-  constexpr int Columns = 4;
-  double sum = 0.0;
-  double square = 0.0;
-  double noise = 0.0;
-  double lit = 0.0;
-  double litNoise = 0.0;
-  int points = 0;
-  for (const std::size_t cell : sign.Cells)
-  {
-    const std::vector<Vec3>& corner = cells[cell].Vertices;
-    for (int point = 0; point < Rows * Columns; ++point, ++points)
-    {
-      // One point is drawn anywhere in its part of the raster for each sample.
-      const auto draw = [&, point](Pcg32& random)
-      {
-        const double u = (point % Columns + random.Uniform()) / Columns;
-        const double v = (point / Columns + random.Uniform()) / Rows;
-        const Vec3 at = corner[0] + u * (corner[1] - corner[0]) + v * (corner[3] - corner[0]);
-        return Ray{eye, glm::normalize(at - eye)};
-      };
-      const Estimate value =
-        reference.MeanRadiance(draw, samples, static_cast<std::uint64_t>(points));
-      const double variance = value.StandardError * value.StandardError;
-      sum += value.Mean;
-      square += value.Mean * value.Mean;
-      noise += variance;
-      lit = std::max(lit, value.Mean);
-      litNoise += variance;
-    }
-  }
-  const double mean = sum / points;
-  const double spread = std::sqrt(std::max(0.0, (square - noise) / points - mean * mean));
-  // The contrast's error is that of the mean, and of the spread, both of independent points.
-  const double meanError = std::sqrt(litNoise) / points;
-  const double contrast = spread / mean;
-  return {contrast, meanError / mean * std::hypot(1.0, contrast)};
-}
 
 /// A point in the middle of a sign's cell, seen from the eye.
 Ray TowardsCell(const Solved& solved, const Vec3& eye, std::size_t cell)
@@ -93,7 +48,7 @@ void CheckRoom(const std::string& kind, const scenes::RandomRoom& room, std::uin
   report::Relative("veil aside of the sign", veilAside.Mean, lightAside.Veil(), 0.01,
     std::hypot(veilAside.StandardError, StandardError(lightAside.VeilMultiple)));
 
-  const Estimate contrast = ReferenceContrast(solved, room.Eye, samples / 40);
+  const Estimate contrast = ReferenceContrast(*solved.TheScene, room.Eye, samples / 40);
   const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{0.0});
   report::Absolute("contrast", contrast.Mean, sign.Contrast, 0.005,
     std::hypot(contrast.StandardError, sign.ContrastError));

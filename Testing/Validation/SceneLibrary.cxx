@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace smokevis::scenes
 {
 
@@ -483,6 +485,29 @@ SceneDescription Moved(SceneDescription description, const Vec3& offset)
       cell.Vertices.begin(), cell.Vertices.end(), [&](Vec3& vertex) { vertex += offset; });
   }
   return description;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription Turned(SceneDescription description, const glm::dmat3& turn)
+{
+  for (Vec3& point : description.Surfaces.Points)
+  {
+    point = turn * point;
+  }
+  for (EmitterCell& cell : description.Emitters)
+  {
+    for (Vec3& vertex : cell.Vertices)
+    {
+      vertex = turn * vertex;
+    }
+  }
+  return description;
+}
+
+//--------------------------------------------------------------------------------------------------
+glm::dmat3 Rotation(double degrees, const Vec3& axis)
+{
+  return glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(axis)));
 }
 
 } // namespace smokevis::scenes

@@ -99,5 +99,8 @@ RandomRoom MakeRandomField(std::uint64_t seed);
 SceneDescription Scaled(SceneDescription description, double factor);
 /// Moves everything.
 SceneDescription Moved(SceneDescription description, const Vec3& offset);
+/// Turns surfaces and emitters; the grids stay.
+SceneDescription Turned(SceneDescription description, const glm::dmat3& turn);
+glm::dmat3 Rotation(double degrees, const Vec3& axis);
 
 } // namespace smokevis::scenes

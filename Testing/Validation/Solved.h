@@ -71,9 +71,8 @@ public:
     for (std::size_t i = 0; i < smoke.Cells(); ++i)
     {
       const auto cell = static_cast<std::int64_t>(i);
-      const Vec3 size = smoke.CellSize(cell);
       const double weight = (1.0 - this->TheScene->Albedo()) * this->TheScene->ExtinctionScale(0) *
-                            smoke.Extinction(cell) * size.x * size.y * size.z;
+                            smoke.Extinction(cell) * smoke.CellVolume(cell);
       const std::size_t index = this->Field->CellIndex(0, cell);
       direct += weight * this->Field->DirectFluence[index];
       multiple.Add(this->Field->MultipleFluence[index], weight);

@@ -1,11 +1,14 @@
 // The filters without ParaView: no process module, no MPI controller.
 #include "UniformSmoke.h"
 
+#include <vtkDataSet.h>
 #include <vtkExitSignSource.h>
+#include <vtkFieldData.h>
 #include <vtkFloorMapOfVisibility.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkSmokeLightField.h>
 #include <vtkVisibilityImage.h>
@@ -91,6 +94,40 @@ TEST_F(PipelineTest, DoesNotAskForPiecesOfTheSmoke)
   this->View->UpdateExtent(part);
   EXPECT_EQ(
     this->View->GetOutput()->GetFieldData()->GetArray("Contrast")->GetComponent(0, 0), whole);
+}
+
+// A ceiling that slopes through the cells: what lies above it and below it is kept apart in the
+// data, and views of a copy see what views of the light field itself do.
+TEST_F(PipelineTest, KeepsThePartsOfCellsThatWallsCut)
+{
+  vtkNew<vtkPlaneSource> ceiling;
+  ceiling->SetOrigin(0.0, 0.0, 1.9);
+  ceiling->SetPoint1(4.0, 0.0, 1.4);
+  ceiling->SetPoint2(0.0, 2.0, 1.8);
+  FillExtinction(this->Smoke, 0.5);
+  this->Field->SetAlbedo(0.8);
+  this->Field->SetTolerance(0.1);
+  this->Field->AddInputConnection(1, ceiling->GetOutputPort());
+  const double veiled = this->Result("UnlitLuminance");
+  EXPECT_GT(veiled, 0.0);
+
+  vtkNew<vtkPartitionedDataSetCollection> copy;
+  copy->DeepCopy(this->Field->GetOutputDataObject(0));
+  vtkFieldData* parts = nullptr;
+  for (unsigned int i = 0; i < copy->GetNumberOfPartitionedDataSets() && !parts; ++i)
+  {
+    vtkDataSet* const block = copy->GetPartition(i, 0);
+    if (block && block->GetFieldData()->GetArray("PartDirectFluence"))
+    {
+      parts = block->GetFieldData();
+    }
+  }
+  ASSERT_NE(parts, nullptr);
+  // Each of the eight upper cells is cut in two.
+  EXPECT_EQ(parts->GetArray("PartDirectFluence")->GetNumberOfTuples(), 8);
+  EXPECT_EQ(parts->GetArray("PartMultipleFluence")->GetNumberOfTuples(), 8);
+  this->View->SetInputDataObject(0, copy);
+  EXPECT_EQ(this->Result("UnlitLuminance"), veiled);
 }
 
 TEST_F(PipelineTest, MapsTheFloor)
