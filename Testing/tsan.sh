@@ -22,8 +22,13 @@ SOURCES
   apt=(apt-get -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$tbb/sources.list.d"
     -o "Dir::State::Lists=$tbb/lists" -o "Dir::Cache=$tbb" -o APT::Sandbox::User=)
   "${apt[@]}" update
-  (cd "$tbb" && "${apt[@]}" source "onetbb=$(dpkg-query -W -f '${source:Version}' libtbb12)")
-  cmake -S "$(echo "$tbb"/onetbb-*/)" -B "$tbb/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+  (
+    cd "$tbb"
+    "${apt[@]}" source --download-only "onetbb=$(dpkg-query -W -f '${source:Version}' libtbb12)"
+    mkdir source
+    tar xf onetbb_*.orig.tar.* -C source --strip-components 1
+  )
+  cmake -S "$tbb/source" -B "$tbb/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DTBB_SANITIZE=thread -DTBB_STRICT=OFF -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF
   cmake --build "$tbb/build" --target tbb
   cp -P "$tbb"/build/*_relwithdebinfo/libtbb.so* "$tbb/lib"
