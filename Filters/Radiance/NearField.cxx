@@ -22,6 +22,9 @@ constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
 constexpr double Lift = 1e-4;
 
+/// Optical depth of a step above which the logarithm of the fluence is interpolated.
+constexpr double ThinStep = 0.5;
+
 /// Counts that come out whole but for rounding are whole.
 constexpr double Rounding = 1e-4;
 
@@ -291,7 +294,10 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
     logarithm += weight * value;
     sum += weight * std::exp(value - depth);
   }
-  return std::isfinite(logarithm) ? std::exp(logarithm) : sum;
+  // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
+  // smoke exponentially.
+  const double across = this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
+  return across > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm) : sum;
 }
 
 } // namespace smokevis
