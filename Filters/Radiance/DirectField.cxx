@@ -16,18 +16,11 @@ namespace smokevis
 namespace
 {
 
-/// A light counts as near to a cell within so many cell edges of the cell. Not a whole number, so
-/// that no distance of a regular scene is at the limit, where rounding would decide.
-constexpr double NearEdges = 4.01;
-/// Closer than this, a cell's mean is not found from a few points.
-constexpr double CloseEdges = 2.01;
 /// Optical depth across a cell below which its light is flat enough, that of the pieces that
 /// thicker ones are cut into, and most pieces of one.
 constexpr double FlatDepth = 0.41;
 constexpr double PieceDepth = 0.5;
 constexpr int MostPieces = 8;
-/// Sharpest law of emission of lights whose fluence is kept on lattices.
-constexpr double SmoothestLaw = 2.0;
 /// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
 /// into the plate, how many and how much closer to the plate each ends.
 constexpr int MostParts = 16;
@@ -68,6 +61,18 @@ struct Equiangular
     this->Width = std::max({aside, 0.5 * light.Radius, 1e-9});
   }
 
+  struct Place
+  {
+    /// Along the ray, and the length that it stands for.
+    double Distance, Step;
+  };
+  /// The place at a share of the angle between two distances.
+  Place At(double from, double to, double share) const
+  {
+    const double low = std::atan((from - this->Middle) / this->Width);
+    const double high = std::atan((to - this->Middle) / this->Width);
+    return this->Between(low, high, from, to, share);
+  }
   /// Calls visit(distance along the ray, step) for the places of a rule between two distances.
   template <class Visit>
   void ForEach(double from, double to, double extinction, Visit&& visit) const
@@ -77,10 +82,17 @@ struct Equiangular
     const GaussRule& rule = RuleFor(high - low, extinction * (to - from));
     for (int i = 0; i < rule.Count; ++i)
     {
-      const double tangent = std::tan(low + (high - low) * rule.Nodes[i]);
-      const double distance = std::clamp(this->Middle + this->Width * tangent, from, to);
-      visit(distance, rule.Weights[i] * (high - low) * this->Width * (1.0 + tangent * tangent));
+      const Place place = this->Between(low, high, from, to, rule.Nodes[i]);
+      visit(place.Distance, rule.Weights[i] * place.Step);
     }
+  }
+
+private:
+  Place Between(double low, double high, double from, double to, double share) const
+  {
+    const double tangent = std::tan(low + (high - low) * share);
+    return {std::clamp(this->Middle + this->Width * tangent, from, to),
+      (high - low) * this->Width * (1.0 + tangent * tangent)};
   }
 };
 
@@ -119,26 +131,27 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 
 } // namespace
 
-DirectField::DirectField(const Scene& scene, const LightField& field)
+DirectField::DirectField(
+  const Scene& scene, const LightField& field, std::shared_ptr<const NearLights> lights)
     : Scene_(scene), Field_(field), Direct_(scene), Open_(scene), Cells_(field.Cells),
-      Means_(field.DirectFluence), Shapes_(field.Bands)
+      Means_(field.DirectFluence), Shapes_(field.Bands), Lights_(std::move(lights))
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
   {
     return;
   }
-  this->FindNearCells();
+  this->MeasureNearCells();
   const auto alike = [this](std::int64_t cell, std::int64_t other)
   {
-    const std::int32_t index = this->NearIndex_[other];
-    if (index < 0)
+    if (!this->Near(other))
     {
       return false;
     }
-    const std::vector<NearLight>& first = this->NearCells_[this->NearIndex_[cell]].Lights;
-    const std::vector<NearLight>& second = this->NearCells_[index].Lights;
+    const auto& first = this->Lights_->Cells()[this->Lights_->Place(cell)].Lights;
+    const auto& second = this->Lights_->Cells()[this->Lights_->Place(other)].Lights;
     return std::equal(first.begin(), first.end(), second.begin(), second.end(),
-      [](const NearLight& one, const NearLight& two) { return one.Light == two.Light; });
+      [](const NearLights::Light& one, const NearLights::Light& two)
+      { return one.Index == two.Index; });
   };
   this->FindVarying();
   for (int band = 0; band < field.Bands; ++band)
@@ -154,144 +167,84 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
   }
 }
 
-void DirectField::FindNearCells()
+void DirectField::MeasureNearCells()
 {
-  const Medium& smoke = this->Scene_.Smoke();
-  const EmitterSet& lights = this->Scene_.Lights();
-  std::vector<double> reach(lights.Lights().size(), 0.0);
-  this->NearIndex_.assign(this->Cells_, -1);
-  std::vector<std::int64_t> cells;
-  for (std::size_t light = 0; light < lights.Lights().size(); ++light)
-  {
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-    const double largest = NearEdges * smoke.LargestEdge();
-    const Vec3 low = glm::min(glm::min(root.Corners[0], root.Corners[1]),
-                       glm::min(root.Corners[2], root.Corners[3])) -
-                     largest;
-    const Vec3 high = glm::max(glm::max(root.Corners[0], root.Corners[1]),
-                        glm::max(root.Corners[2], root.Corners[3])) +
-                      largest;
-    smoke.ForCellsIn(low, high,
-      [&](std::int64_t cell)
-      {
-        if (smoke.Extinction(cell) == 0.0F)
-        {
-          return;
-        }
-        const Vec3 centre = smoke.CellCentre(cell);
-        const Vec3 size = smoke.CellSize(cell);
-        const double distance = root.Distance(centre);
-        // Behind a plate there is none of its light.
-        if (distance >= NearEdges * std::max({size.x, size.y, size.z}) ||
-            glm::dot(centre - root.Centre, root.Normal) <= -root.Radius - glm::length(size))
-        {
-          return;
-        }
-        if (this->NearIndex_[cell] < 0)
-        {
-          this->NearIndex_[cell] = static_cast<std::int32_t>(this->NearCells_.size());
-          this->NearCells_.emplace_back();
-          cells.push_back(cell);
-        }
-        this->NearCells_[this->NearIndex_[cell]].Lights.push_back(
-          {static_cast<std::uint32_t>(light), false, {}});
-        reach[light] = std::max(reach[light], distance + 0.5 * glm::length(size));
-      });
-  }
-  this->NearFields_.resize(reach.size());
-  for (std::size_t light = 0; light < reach.size(); ++light)
-  {
-    // Light that changes quickly with the angle, as measured light may near the plate's plane,
-    // would need finer lattices.
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-    if (reach[light] > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
-    {
-      this->NearFields_[light] =
-        std::make_unique<NearField>(this->Scene_, this->Direct_, light, reach[light]);
-    }
-  }
+  const std::vector<NearLights::Cell>& cells = this->Lights_->Cells();
+  this->NearMeans_.resize(cells.size());
   tbb::parallel_for(std::size_t{0}, cells.size(),
     [&](std::size_t i)
     {
-      const Spectrum others = this->MeasureNearCell(cells[i], this->NearCells_[i]);
+      const bool part = this->Scene_.Smoke().Parts().Find(cells[i].Index) != nullptr;
+      for (const NearLights::Light& light : cells[i].Lights)
+      {
+        this->NearMeans_[i].push_back(light.Clear && this->Lights_->Field(light.Index) && !part
+                                        ? Spectrum{}
+                                        : this->Direct_.CellFluence(light.Index, cells[i].Index));
+      }
+      const Spectrum others = this->OthersFluence(i);
       for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
       {
-        this->Means_[band * this->Cells_ + cells[i]] = static_cast<float>(others[band]);
+        this->Means_[band * this->Cells_ + cells[i].Index] = static_cast<float>(others[band]);
       }
     });
 }
 
-Spectrum DirectField::MeasureNearCell(std::int64_t cell, NearCell& near) const
+Spectrum DirectField::OthersFluence(std::size_t place) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
-  const Vec3 size = this->Scene_.Smoke().CellSize(cell);
-  const bool part = this->Scene_.Smoke().Parts().Find(cell) != nullptr;
-  double distance = 1e300;
-  for (NearLight& light : near.Lights)
+  const NearLights::Cell& near = this->Lights_->Cells()[place];
+  const bool part = this->Scene_.Smoke().Parts().Find(near.Index) != nullptr;
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
+  Spectrum sum{};
+  if (near.Lights.size() == lights)
   {
-    light.Clear = this->Direct_.Clear(light.Light, cell);
-    if (!light.Clear || !this->NearFields_[light.Light] || part)
-    {
-      light.Mean = this->Direct_.CellFluence(light.Light, cell);
-    }
-    distance = std::min(distance, lights.Groups()[lights.Lights()[light.Light]].Distance(centre));
-  }
-  near.Close = distance < CloseEdges * std::max({size.x, size.y, size.z});
-  if (near.Lights.size() == lights.Lights().size())
-  {
-    return {};
+    return sum;
   }
   if (near.Close && !part)
   {
-    return this->OthersFluence(cell, near);
+    auto skip = near.Lights.begin();
+    for (std::size_t light = 0; light < lights; ++light)
+    {
+      if (skip != near.Lights.end() && skip->Index == light)
+      {
+        ++skip;
+        continue;
+      }
+      const Spectrum value = this->Direct_.CellFluence(light, near.Index);
+      for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
+      {
+        sum[band] += value[band];
+      }
+    }
+    return sum;
   }
   // Eight Gauss points know the near lights' mean to a percent, and take it from that of all.
-  Spectrum others{};
+  const Vec3 centre = this->Scene_.Smoke().CellCentre(near.Index);
+  const Vec3 size = this->Scene_.Smoke().CellSize(near.Index);
   for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
   {
-    others[band] = this->Means_[band * this->Cells_ + cell];
+    sum[band] = this->Means_[band * this->Cells_ + near.Index];
   }
-  for (const NearLight& light : near.Lights)
+  for (std::size_t i = 0; i < near.Lights.size(); ++i)
   {
+    const NearLights::Light& light = near.Lights[i];
     for (std::size_t band = 0; band < this->Shapes_.size() && part; ++band)
     {
-      others[band] -= light.Mean[band];
+      sum[band] -= this->NearMeans_[place][i][band];
     }
     for (int point = 0; point < 8 && !part; ++point)
     {
       const Vec3 share(Nodes2[point & 1], Nodes2[point >> 1 & 1], Nodes2[point >> 2 & 1]);
       const Spectrum value =
-        this->Direct_.Fluence(light.Light, centre + (share - 0.5) * size, light.Clear);
+        this->Direct_.Fluence(light.Index, centre + (share - 0.5) * size, light.Clear);
       for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
       {
-        others[band] -= 0.125 * value[band];
+        sum[band] -= 0.125 * value[band];
       }
     }
   }
-  for (double& value : others)
+  for (double& value : sum)
   {
     value = std::max(0.0, value);
-  }
-  return others;
-}
-
-Spectrum DirectField::OthersFluence(std::int64_t cell, const NearCell& near) const
-{
-  Spectrum sum{};
-  auto skip = near.Lights.begin();
-  for (std::size_t light = 0; light < this->Scene_.Lights().Lights().size(); ++light)
-  {
-    if (skip != near.Lights.end() && skip->Light == light)
-    {
-      ++skip;
-      continue;
-    }
-    const Spectrum value = this->Direct_.CellFluence(light, cell);
-    for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
-    {
-      sum[band] += value[band];
-    }
   }
   return sum;
 }
@@ -309,10 +262,11 @@ void DirectField::FindVarying()
       const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
                            this->Scene_.ExtinctionScale(static_cast<int>(band));
       const std::size_t index = band * this->Cells_ + i;
+      const int near = this->Lights_->Place(cell);
+      const bool close = near >= 0 && this->Lights_->Cells()[near].Close;
       // In the thickest cells pieces would not follow the light; means keep the balance of power.
       this->Varies_[index] = this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
-                             depth < MostPieces * PieceDepth &&
-                             (depth > FlatDepth || this->Close(cell));
+                             depth < MostPieces * PieceDepth && (depth > FlatDepth || close);
     }
   }
 }
@@ -325,32 +279,35 @@ int DirectField::Pieces(std::int64_t cell, double length, int band) const
   return std::clamp(static_cast<int>(std::ceil(depth / PieceDepth)), 1, MostPieces);
 }
 
-double DirectField::PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
-  double begin, double end, int band) const
+double DirectField::PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
+  double begin, double end, double place, int band) const
 {
   const double smooth = this->Smooth(cell, origin + 0.5 * (begin + end) * direction, band);
-  return this->Near(cell) ? smooth + this->NearMean(cell, origin, direction, begin, end, band)
-                          : smooth;
+  return this->Near(cell)
+           ? smooth + this->NearFluence(cell, origin, direction, begin, end, place, band)
+           : smooth;
 }
 
-double DirectField::NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction,
-  double begin, double end, int band) const
+double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
+  double begin, double end, double place, int band) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]].Lights)
+  const int index = this->Lights_->Place(cell);
+  const std::vector<NearLights::Light>& nearLights = this->Lights_->Cells()[index].Lights;
+  for (std::size_t i = 0; i < nearLights.size(); ++i)
   {
-    const std::unique_ptr<NearField>& field = this->NearFields_[near.Light];
-    if (!near.Clear || !field)
+    const NearField* field = this->Lights_->Field(nearLights[i].Index);
+    if (!nearLights[i].Clear || field == nullptr)
     {
       // Shadows and sharp beams would cost more than lines are worth.
-      sum += near.Mean[band];
+      sum += this->NearMeans_[index][i][band];
       continue;
     }
-    const Equiangular places(lights.Groups()[lights.Lights()[near.Light]], origin, direction);
-    places.ForEach(begin, end, 0.0,
-      [&](double distance, double step)
-      { sum += step / (end - begin) * field->Fluence(origin + distance * direction, band); });
+    const LightGroup& root = lights.Groups()[lights.Lights()[nearLights[i].Index]];
+    const Equiangular places(root, origin, direction);
+    const auto [distance, step] = places.At(begin, end, place);
+    sum += step / (end - begin) * field->Fluence(origin + distance * direction, band);
   }
   return sum;
 }
@@ -360,10 +317,10 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLight& near : this->NearCells_[this->NearIndex_[cell]].Lights)
+  for (const NearLights::Light& near : this->Lights_->Cells()[this->Lights_->Place(cell)].Lights)
   {
-    const LightGroup& root = lights.Groups()[lights.Lights()[near.Light]];
-    const std::unique_ptr<NearField>& field = this->NearFields_[near.Light];
+    const LightGroup& root = lights.Groups()[lights.Lights()[near.Index]];
+    const NearField* field = this->Lights_->Field(near.Index);
     const Equiangular places(root, origin, direction);
     std::array<double, MostParts + 1> ends;
     const int parts = PartEnds(root, origin, direction, begin, end, extinction, ends);
@@ -375,7 +332,7 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
           const Vec3 point = origin + distance * direction;
           const double fluence = near.Clear && field
                                    ? field->Fluence(point, band)
-                                   : this->Direct_.Fluence(near.Light, point, near.Clear)[band];
+                                   : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
           sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
         });
     }

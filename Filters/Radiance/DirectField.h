@@ -5,7 +5,7 @@
 #include "CellShape.h"
 #include "DirectLight.h"
 #include "LightField.h"
-#include "NearField.h"
+#include "NearLights.h"
 #include "OpenFaces.h"
 
 #include <memory>
@@ -16,13 +16,14 @@ namespace smokevis
 
 class Scene;
 
-/// Of every cell, a light within a few cell edges counts as near: its fluence is too steep to be
-/// interpolated between cells.
+/// What the lights near to a cell add is taken at each place, that of all others from cell means.
 class DirectField
 {
 public:
   /// @param field holds the direct fluence of all cells; must outlive this
-  DirectField(const Scene& scene, const LightField& field);
+  /// @param lights which are near to cells
+  DirectField(
+    const Scene& scene, const LightField& field, std::shared_ptr<const NearLights> lights);
 
   const OpenFaces& Open() const { return this->Open_; }
 
@@ -33,33 +34,33 @@ public:
     return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
                                       : 0.0;
   }
-  /// Calls visit(length, fluence) for the parts that a piece of a ray inside a cell is cut into,
-  /// with the mean direct fluence of each [lx]; the fluence is flat enough in each.
+  /// Whether the direct fluence varies inside a cell by more than a flat source may.
+  bool Varies(std::int64_t cell, int band) const
+  {
+    return !this->Varies_.empty() && this->Varies_[band * this->Cells_ + cell];
+  }
+  /// Calls visit(length, fluence) for the parts that a piece of a ray is cut into inside a cell
+  /// where the direct fluence varies, with an estimate of the mean direct fluence of each [lx].
+  /// @param place where in each part the near lights' fluence is taken, 0 to 1; the mean over
+  /// uniform places is theirs
   template <class Visit>
   void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band, Visit&& visit) const
+    double end, double place, int band, Visit&& visit) const
   {
-    const std::size_t index = band * this->Cells_ + cell;
-    if (this->Varies_.empty() || !this->Varies_[index])
-    {
-      visit(end - begin, this->Field_.DirectFluence[index]);
-      return;
-    }
     const int parts = this->Pieces(cell, end - begin, band);
     for (int part = 0; part < parts; ++part)
     {
       const double from = begin + (end - begin) * part / parts;
       const double to = begin + (end - begin) * (part + 1) / parts;
-      visit(to - from, this->PieceMean(cell, origin, direction, from, to, band));
+      visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
     }
   }
-  bool Near(std::int64_t cell) const
-  {
-    return !this->NearIndex_.empty() && this->NearIndex_[cell] >= 0;
-  }
-  /// Mean, along a piece of a ray inside a cell, of the fluence of the lights near to it [lx].
-  double NearMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band) const;
+  bool Near(std::int64_t cell) const { return this->Lights_->Place(cell) >= 0; }
+  /// Fluence of the lights near to a cell at one place of a piece of a ray inside it, so weighted
+  /// that its mean over uniform places is that along the piece [lx].
+  /// @param place 0 to 1
+  double NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, double place, int band) const;
   /// Light of the near lights that such a piece scatters towards its beginning, before what lies
   /// ahead of the piece dims it [cd/m2].
   /// @param extinction of the cell in the band [1/m]
@@ -67,35 +68,15 @@ public:
     double end, double extinction, int band) const;
 
 private:
-  struct NearLight
-  {
-    std::uint32_t Light = 0;
-    /// Whether the whole cell sees the light unhidden.
-    bool Clear = false;
-    /// Over the cell, where lines need it: where there are shadows or no lattice [lx].
-    Spectrum Mean{};
-  };
-  struct NearCell
-  {
-    std::vector<NearLight> Lights;
-    bool Close = false;
-  };
-
-  /// Whether a light is so close to a cell that its fluence varies much inside it.
-  bool Close(std::int64_t cell) const
-  {
-    return this->Near(cell) && this->NearCells_[this->NearIndex_[cell]].Close;
-  }
-  void FindNearCells();
+  void MeasureNearCells();
   void FindVarying();
   /// Parts that a piece of a ray of some length in a cell is cut into.
   int Pieces(std::int64_t cell, double length, int band) const;
-  double PieceMean(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, int band) const;
-  /// Returns what the lights that are not near leave of the direct fluence in a cell.
-  Spectrum MeasureNearCell(std::int64_t cell, NearCell& near) const;
-  /// Fluence of the lights that are not in the list.
-  Spectrum OthersFluence(std::int64_t cell, const NearCell& near) const;
+  double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
+    double end, double place, int band) const;
+  /// What the lights that are not near to a cell add to its direct fluence.
+  /// @param place of the cell among those that lights are near to
+  Spectrum OthersFluence(std::size_t place) const;
 
   const Scene& Scene_;
   const LightField& Field_;
@@ -105,11 +86,10 @@ private:
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;
   std::vector<CellShape> Shapes_;
-  /// Of each cell, its place among NearCells_, or -1; empty: no smoke scatters.
-  std::vector<std::int32_t> NearIndex_;
-  std::vector<NearCell> NearCells_;
-  /// Of each light that is near to a cell.
-  std::vector<std::unique_ptr<NearField>> NearFields_;
+  std::shared_ptr<const NearLights> Lights_;
+  /// Of each cell that lights are near to and each such light, its fluence over the cell where
+  /// lines need it: where there are shadows or no lattice [lx].
+  std::vector<std::vector<Spectrum>> NearMeans_;
   /// Whether the fluence varies inside a cell by more than a flat source may: [band][cell].
   std::vector<bool> Varies_;
 };

@@ -10,6 +10,8 @@
 namespace smokevis
 {
 
+class NearField;
+class NearLights;
 class Scene;
 struct LightGroup;
 
@@ -18,7 +20,11 @@ struct LightGroup;
 class DirectLight
 {
 public:
-  explicit DirectLight(const Scene& scene) : Scene_(scene) {}
+  /// @param near what is known of lights near to cells already; must outlive this
+  explicit DirectLight(const Scene& scene, const NearLights* near = nullptr)
+      : Scene_(scene), Near_(near)
+  {
+  }
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
@@ -106,26 +112,50 @@ private:
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
   /// Mean fluence over a part of a cell that walls cut.
   Spectrum PartFluence(std::size_t light, const CellPart& part) const;
-  Spectrum BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size, int splits,
-    bool clear, std::optional<double> extinction) const;
+  /// A light as a box of smoke sees it.
+  struct BoxLight
+  {
+    std::size_t Index;
+    /// Nothing hides it from the box.
+    bool Clear = false;
+    /// Mean along the way to the centre of the box, if known [1/m].
+    std::optional<double> Extinction{};
+    /// A few percent of its fluence do not matter beside other lights'.
+    bool Weak = false;
+    /// Its fluence around it, if kept.
+    const NearField* Near = nullptr;
+  };
+  Spectrum Fluence(const BoxLight& light, const Vec3& point) const;
+  Spectrum BoxFluence(
+    const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
   /// Largest optical depth along an edge of a box, of any band.
   double BoxDepth(const Vec3& centre, const Vec3& size) const;
-  Spectrum GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size, bool clear,
-    std::optional<double> known) const;
+  Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
-  /// Whether a light adds next to nothing to what all cells of a block already hold.
+  /// What the corners of a block of cells tell of the ways to a light from the cells between.
+  struct Told
+  {
+    /// Mean extinctions [1/m].
+    std::array<double, 8> Ways{};
+    /// Bound of what the light adds to any cell, over what that cell already holds, times the
+    /// number of lights.
+    double Share = 0.0;
+  };
+  /// Largest share that a light may add to what any cell of a block already holds; a bound.
   /// @param ways mean extinctions along the ways to the block's corners
-  bool Negligible(const LightGroup& root, const Medium::Block& block,
+  double LargestShare(const LightGroup& root, const Medium::Block& block,
     const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const;
   /// Mean extinction between the cells of a block and a light: linear between the corners of the
-  /// block; none where that does not hold.
-  std::optional<std::array<double, 8>> BlockWays(
-    const LightGroup& root, const Medium::Block& block) const;
+  /// block; none where that does not hold. The less a light may add to what the cells hold, the
+  /// rougher its ways may be told.
+  std::optional<Told> BlockWays(
+    const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;
+  const NearLights* Near_;
 };
 
 } // namespace smokevis

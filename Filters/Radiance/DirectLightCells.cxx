@@ -2,10 +2,12 @@
 #include "DirectLight.h"
 
 #include "GaussNodes.h"
+#include "NearLights.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis
 {
@@ -22,6 +24,11 @@ constexpr std::array<std::array<double, 3>, 3> WayChecks = {
 /// Share of the fluence of the other lights that all lights left out may add: single precision
 /// does not show it.
 constexpr double NegligibleShare = 1e-7;
+/// Share of the fluence of the other lights below which the mean of a light over a box is taken
+/// without Gauss points: it is known to a few percent, so that single precision in a sum of all is
+/// not needed of it.
+constexpr double WeakShare = 0.05;
+constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// A box as large as this share of its distance to the light is split.
 constexpr double BoxRatio = 0.5;
 constexpr int BoxSplits = 3;
@@ -72,6 +79,42 @@ double MeanAttenuation(double x, double shift)
   return std::exp(logarithm - x * shift);
 }
 
+struct GaussPlace
+{
+  Vec3 Point;
+  double Weight;
+};
+
+/// Gauss places in a box, so many along each edge (2 or 3).
+std::vector<GaussPlace> GaussPlaces(const Vec3& centre, const Vec3& size, int order)
+{
+  std::vector<GaussPlace> places;
+  places.reserve(static_cast<std::size_t>(order) * order * order);
+  for (int point = 0; point < order * order * order; ++point)
+  {
+    const std::array<int, 3> index = {
+      point % order, point / order % order, point / (order * order)};
+    double weight = 1.0;
+    Vec3 share;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
+      weight *= order == 2 ? 0.5 : Weights3[index[axis]];
+    }
+    places.push_back({centre + (share - 0.5) * size, weight});
+  }
+  return places;
+}
+
+/// What a light that were a point would send along a way, over its luminous intensity.
+double PointLight(const LightGroup& light, const Vec3& way)
+{
+  const double square = glm::dot(way, way);
+  const double distance = std::sqrt(square);
+  const double cosine = glm::dot(way, light.Normal) / distance;
+  return cosine / square * light.Law.Relative(way / distance, cosine);
+}
+
 } // namespace
 
 bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
@@ -110,11 +153,27 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  const double distance = root.Distance(centre);
+  BoxLight box{light};
+  const int near = this->Near_ ? this->Near_->Place(cell) : -1;
+  if (near >= 0)
+  {
+    const std::vector<NearLights::Light>& lightsThere = this->Near_->Cells()[near].Lights;
+    const auto found = std::find_if(lightsThere.begin(), lightsThere.end(),
+      [light](const NearLights::Light& there) { return there.Index == light; });
+    if (found != lightsThere.end())
+    {
+      box.Clear = found->Clear;
+      // In the thickest cells light does not follow what is interpolated.
+      box.Near = found->Clear && this->BoxDepth(centre, size) < DeepestGauss
+                   ? this->Near_->Field(light)
+                   : nullptr;
+      return this->BoxFluence(box, centre, size, BoxSplits);
+    }
+  }
   const bool splits =
-    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * distance;
-  return this->BoxFluence(
-    light, centre, size, BoxSplits, splits && this->Clear(light, cell), std::nullopt);
+    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
+  box.Clear = splits && this->Clear(light, cell);
+  return this->BoxFluence(box, centre, size, BoxSplits);
 }
 
 Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
@@ -181,8 +240,52 @@ double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) con
   return smoke.OpticalDepth(from, (root.Centre - from) / distance, 0.0, distance) / distance;
 }
 
-std::optional<std::array<double, 8>> DirectLight::BlockWays(
-  const LightGroup& root, const Medium::Block& block) const
+double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
+  const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const
+{
+  if (root.Law.Measured())
+  {
+    return Infinity;
+  }
+  const Medium& smoke = this->Scene_.Smoke();
+  // No cell gets more than all of the plate would send it from the nearest place of the block.
+  const Vec3 low = smoke.CellCentre(smoke.Cell(block, {0, 0, 0}));
+  const Vec3 high =
+    smoke.CellCentre(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1}));
+  const double reach = 0.5 * glm::length(high - low) + root.Radius;
+  const double distance = glm::length(root.Centre - 0.5 * (low + high)) - reach;
+  if (!(distance > reach))
+  {
+    return Infinity;
+  }
+  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - WayTolerance;
+  Spectrum most{};
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    most[band] = root.Intensity[band] / (distance * distance) *
+                 std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+  }
+  double share = 0.0;
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
+        }
+      }
+    }
+  }
+  return share;
+}
+
+std::optional<DirectLight::Told> DirectLight::BlockWays(
+  const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const auto cornerCell = [&](int corner)
@@ -202,7 +305,7 @@ std::optional<std::array<double, 8>> DirectLight::BlockWays(
   {
     return std::nullopt;
   }
-  std::array<double, 8> ways;
+  Told told;
   for (int corner = 0; corner < 8; ++corner)
   {
     const std::int64_t cell = cornerCell(corner);
@@ -211,8 +314,11 @@ std::optional<std::array<double, 8>> DirectLight::BlockWays(
     {
       return std::nullopt;
     }
-    ways[corner] = this->WayExtinction(root, cell);
+    told.Ways[corner] = this->WayExtinction(root, cell);
   }
+  told.Share = this->LargestShare(root, block, told.Ways, sums) *
+               static_cast<double>(this->Scene_.Lights().Lights().size());
+  const double allowed = WayTolerance * std::max(1.0, 1.0 / told.Share);
   const double scale = this->Scene_.LargestScale();
   for (const auto& share : WayChecks)
   {
@@ -222,61 +328,14 @@ std::optional<std::array<double, 8>> DirectLight::BlockWays(
       place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
     }
     const std::int64_t cell = smoke.Cell(block, place);
-    const double told = Trilinear(ways, BlockShare(block, place));
+    const double there = Trilinear(told.Ways, BlockShare(block, place));
     const double way = glm::length(root.Centre - smoke.CellCentre(cell));
-    if (std::abs(told - this->WayExtinction(root, cell)) * way * scale > WayTolerance)
+    if (std::abs(there - this->WayExtinction(root, cell)) * way * scale > allowed)
     {
       return std::nullopt;
     }
   }
-  return ways;
-}
-
-bool DirectLight::Negligible(const LightGroup& root, const Medium::Block& block,
-  const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const
-{
-  if (root.Law.Measured())
-  {
-    return false;
-  }
-  const Medium& smoke = this->Scene_.Smoke();
-  // No cell gets more than all of the plate would send it from the nearest place of the block.
-  const Vec3 low = smoke.CellCentre(smoke.Cell(block, {0, 0, 0}));
-  const Vec3 high =
-    smoke.CellCentre(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1}));
-  const double reach = 0.5 * glm::length(high - low) + root.Radius;
-  const double distance = glm::length(root.Centre - 0.5 * (low + high)) - reach;
-  if (!(distance > reach))
-  {
-    return false;
-  }
-  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - WayTolerance;
-  Spectrum most{};
-  for (int band = 0; band < this->Scene_.Bands(); ++band)
-  {
-    most[band] = root.Intensity[band] / (distance * distance) *
-                 std::exp(-this->Scene_.ExtinctionScale(band) * depth);
-  }
-  const double share = NegligibleShare / static_cast<double>(this->Scene_.Lights().Lights().size());
-  std::array<int, 3> place;
-  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
-  {
-    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
-    {
-      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
-      {
-        const std::int64_t cell = smoke.Cell(block, place);
-        for (int band = 0; band < this->Scene_.Bands(); ++band)
-        {
-          if (most[band] > share * sums[cell][band])
-          {
-            return false;
-          }
-        }
-      }
-    }
-  }
-  return true;
+  return told;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(
@@ -286,10 +345,13 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
-  const auto ways = skips && largest >= SmallestBlock ? this->BlockWays(root, block)
-                                                      : std::optional<std::array<double, 8>>();
+  std::optional<Told> told;
+  if (skips && largest >= SmallestBlock)
+  {
+    told = this->BlockWays(root, block, sums);
+  }
   BlockWork work;
-  if (!ways && largest > SmallestBlock)
+  if (!told && largest > SmallestBlock)
   {
     const int half = (largest + 1) / 2;
     for (int part = 0; part < 8; ++part)
@@ -312,7 +374,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
     }
     return work;
   }
-  if (ways && this->Negligible(root, block, *ways, sums))
+  if (told && told->Share < NegligibleShare)
   {
     work.Negligible = static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
     return work;
@@ -331,10 +393,11 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
           continue;
         }
         const Spectrum value =
-          ways ? this->BoxFluence(light, smoke.CellCentre(cell), smoke.CellSize(cell), 0, false,
-                   Trilinear(*ways, BlockShare(block, place)))
+          told ? this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
+                                    told->Share < WeakShare},
+                   smoke.CellCentre(cell), smoke.CellSize(cell), 0)
                : this->CellFluence(light, cell);
-        work.Told += ways ? 1 : 0;
+        work.Told += told ? 1 : 0;
         for (int band = 0; band < this->Scene_.Bands(); ++band)
         {
           sums[cell][band] += value[band];
@@ -345,11 +408,27 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   return work;
 }
 
-Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Vec3& size,
-  int splits, bool clear, std::optional<double> known) const
+Spectrum DirectLight::Fluence(const BoxLight& light, const Vec3& point) const
+{
+  if (light.Near && light.Near->Smooth(point))
+  {
+    Spectrum value{};
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      value[band] = light.Near->Fluence(point, band);
+    }
+    return value;
+  }
+  return light.Extinction ? this->Fluence(light.Index,
+                              Receiver{point, std::nullopt, light.Clear, {}, light.Extinction})
+                          : this->Fluence(light.Index, point, light.Clear);
+}
+
+Spectrum DirectLight::BoxFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
@@ -365,8 +444,7 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
     for (int part = 0; part < 8; ++part)
     {
       const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
-      const Spectrum value =
-        this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1, clear, known);
+      const Spectrum value = this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += 0.125 * value[band];
@@ -392,9 +470,10 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
     return {};
   }
   const double depth = this->BoxDepth(centre, size);
-  if (!close && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
+  if (!close && !light.Weak && depth < DeepestGauss &&
+      (depth > FlatDepth || edge > FlatRatio * distance))
   {
-    return this->GaussFluence(light, centre, size, clear, known);
+    return this->GaussFluence(light, centre, size);
   }
   // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own,
   // where the rest of the light's variation is taken.
@@ -407,8 +486,7 @@ Spectrum DirectLight::BoxFluence(std::size_t light, const Vec3& centre, const Ve
   {
     place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
   }
-  Spectrum value = known ? this->Fluence(light, Receiver{place, std::nullopt, clear, {}, known})
-                         : this->Fluence(light, place, clear);
+  Spectrum value = this->Fluence(light, place);
   double curvature = 1.0;
   if (!close)
   {
@@ -449,57 +527,75 @@ double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
                       std::max({size.x, size.y, size.z});
 }
 
-Spectrum DirectLight::GaussFluence(std::size_t light, const Vec3& centre, const Vec3& size,
-  bool clear, std::optional<double> known) const
+Spectrum DirectLight::GaussFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-  const int order = this->BoxDepth(centre, size) < TwoPointDepth ? 2 : 3;
-  Receiver receiver{centre, std::nullopt, clear, {}, known};
-  const double toCentre = glm::length(root.Centre - centre);
-  double visible = 1.0;
-  double depth = 0.0;
-  const bool far = root.Radius < PathRatio * toCentre;
-  if (far)
+  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+  const Vec3 from = centre - root.Centre;
+  const double toCentre = glm::length(from);
+  const std::vector<GaussPlace> places =
+    GaussPlaces(centre, size, this->BoxDepth(centre, size) < TwoPointDepth ? 2 : 3);
+  Spectrum sum{};
+  if (!(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
   {
-    // Ways to the places in the box differ from the one to its centre inside the box alone.
-    const Path path = this->SamplePath(root, receiver);
-    visible = path.Visible;
-    depth = path.MeanExtinction * toCentre;
+    for (const GaussPlace& place : places)
+    {
+      const Spectrum value = this->Fluence(light, place.Point);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += place.Weight * value[band];
+      }
+    }
+    return sum;
   }
-  if (visible == 0.0)
+  // Ways to the places in the box differ from the one to its centre inside the box alone.
+  Receiver receiver{centre, std::nullopt, light.Clear, {}, light.Extinction};
+  const Path path = this->SamplePath(root, receiver);
+  if (path.Visible == 0.0)
   {
     return {};
   }
   const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
   const double extinction = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
-  Spectrum sum{};
-  for (int point = 0; point < order * order * order; ++point)
+  const double depth = path.MeanExtinction * toCentre;
+  const auto depthAt = [&](double distance)
+  { return std::max(0.0, depth + extinction * (distance - toCentre)); };
+  receiver.Clear = true;
+  const double height = glm::dot(from, root.Normal);
+  if (height > glm::dot(glm::abs(root.Normal), size) && root.Plane())
   {
-    const std::array<int, 3> index = {
-      point % order, point / order % order, point / (order * order)};
-    double weight = visible;
-    Vec3 share;
-    for (int axis = 0; axis < 3; ++axis)
+    // That the light is no point matters as much at one place of the box as at another: places
+    // differ from the centre as they would before a point.
+    receiver.Extinction = path.MeanExtinction;
+    sum = this->Fluence(light.Index, receiver);
+    const double atCentre = PointLight(root, from);
+    Spectrum mean{};
+    for (const GaussPlace& place : places)
     {
-      share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
-      weight *= order == 2 ? 0.5 : Weights3[index[axis]];
-    }
-    const Vec3 place = centre + (share - 0.5) * size;
-    Spectrum value;
-    if (far)
-    {
-      const double distance = glm::length(root.Centre - place);
-      const double told = std::max(0.0, depth + extinction * (distance - toCentre)) / distance;
-      value = this->Fluence(light, Receiver{place, std::nullopt, true, {}, told});
-    }
-    else
-    {
-      value = this->Fluence(light, place, clear);
+      const Vec3 way = place.Point - root.Centre;
+      const double weight = place.Weight * PointLight(root, way) / atCentre;
+      const double further = depthAt(glm::length(way)) - depth;
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * further);
+      }
     }
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
-      sum[band] += weight * value[band];
+      sum[band] *= path.Visible * mean[band];
+    }
+    return sum;
+  }
+  for (const GaussPlace& place : places)
+  {
+    const double distance = glm::length(root.Centre - place.Point);
+    receiver.Point = place.Point;
+    receiver.Extinction = depthAt(distance) / distance;
+    const Spectrum value = this->Fluence(light.Index, receiver);
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] += path.Visible * place.Weight * value[band];
     }
   }
   return sum;

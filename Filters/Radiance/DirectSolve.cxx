@@ -48,9 +48,10 @@ std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 } // namespace
 
 DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team,
-  Progress& progress, tbb::task_arena& arena, double share, LightField& field)
+  Progress& progress, tbb::task_arena& arena, double share, const NearLights& near,
+  LightField& field)
     : Scene_(scene), Options_(options), Team_(team), Progress_(progress), Arena_(arena),
-      Share_(share), Field_(field)
+      Share_(share), Near_(near), Field_(field)
 {
 }
 
@@ -141,7 +142,7 @@ void DirectSolve::Cells()
   {
     return;
   }
-  const DirectLight direct(this->Scene_);
+  const DirectLight direct(this->Scene_, &this->Near_);
   const std::vector<Medium::Block> blocks = smoke.Blocks(BlockEdge);
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
   const double partShare = this->AddParts(direct, sums);

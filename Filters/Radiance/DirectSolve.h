@@ -9,6 +9,7 @@ namespace smokevis
 {
 
 class DirectLight;
+class NearLights;
 
 /// Works out the light that comes straight from the emitters, in parallel: blocks of cells and
 /// patches do not depend on each other.
@@ -17,8 +18,9 @@ class DirectSolve
 public:
   /// @param share of the progress bar, from 0, that this takes
   /// @param field receives the direct fluence and illuminance, and what was left out
+  /// @param near lights near to cells
   DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team, Progress& progress,
-    tbb::task_arena& arena, double share, LightField& field);
+    tbb::task_arena& arena, double share, const NearLights& near, LightField& field);
 
   /// Throws Error when it is stopped.
   void Cells();
@@ -40,6 +42,7 @@ private:
   Progress& Progress_;
   tbb::task_arena& Arena_;
   double Share_;
+  const NearLights& Near_;
   LightField& Field_;
 };
 

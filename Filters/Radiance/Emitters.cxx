@@ -20,8 +20,6 @@ namespace
 /// A light of more leaves is replaced by a lattice with so many rectangles along its longer side.
 constexpr std::size_t MostLeaves = 20;
 constexpr double LatticeAcross = 4.0;
-/// A group of no more depth than this share of its radius is plane.
-constexpr double FlatDepth = 1e-6;
 
 /// Newell's normal of a polygon; its length is twice the area.
 Vec3 AreaVector(const std::vector<Vec3>& vertices)
@@ -457,7 +455,7 @@ void EmitterSet::FillGroup(
   }
   all.Corners = {all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
     all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v};
-  if (!all.Law.Measured() && all.Depth <= FlatDepth * all.Radius)
+  if (!all.Law.Measured() && all.Plane())
   {
     all.Stencil = std::make_shared<PlateStencil>(
       all.Corners, std::span(leaves).subspan(begin, end - begin), this->Bands_);

@@ -72,6 +72,8 @@ struct LightGroup
   /// What stands for the leaves of a plane group with a smooth law; a leaf has none.
   std::shared_ptr<const PlateStencil> Stencil;
 
+  /// Whether it is plane but for rounding.
+  bool Plane() const { return this->Depth <= 1e-6 * this->Radius; }
   /// Distance of a point from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
   /// A place between the corners, and the area for each unit of u and v there [m2].

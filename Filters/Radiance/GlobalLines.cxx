@@ -62,6 +62,18 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
   this->InnerWeight_ = glm::half_pi<double>() / this->Meetings(1.0, true);
 }
 
+GlobalLines GlobalLines::Thinned(double share) const
+{
+  const auto part = [share](std::size_t lines)
+  { return static_cast<std::size_t>(std::ceil(share * static_cast<double>(lines))); };
+  GlobalLines thinned(this->Scene_, part(this->Lines_));
+  if (this->Inner_)
+  {
+    thinned.AddInner(*this->Inner_, part(this->InnerLines_));
+  }
+  return thinned;
+}
+
 double GlobalLines::Meetings(double area, bool inside) const
 {
   const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Surface();
@@ -71,7 +83,7 @@ double GlobalLines::Meetings(double area, bool inside) const
 }
 
 GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key)
-    : Lines_(lines), Points_(key), InnerPoints_(Mix(key))
+    : Lines_(lines), Key_(key), Points_(key), InnerPoints_(Mix(key))
 {
 }
 
@@ -99,6 +111,7 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const auto [begin, end] = stretch(lines.Scene_);
   line.Origin += begin * line.Direction;
   line.Length = end - begin;
+  line.Random = ToUnit(Mix(this->Key_ ^ Mix(index)));
   line.Weight = meetsInner ? lines.InnerWeight_ : lines.Weight_;
   return line;
 }

@@ -24,12 +24,17 @@ public:
     double Length;
     /// Power that it carries in each direction for each unit of its radiance [m2 sr].
     double Weight;
+    /// A uniform random number of its own.
+    double Random;
   };
 
   GlobalLines(const Box& scene, std::size_t lines);
   /// @param inner box inside the scene's
   /// @param lines through it, beside those through the scene
   void AddInner(const Box& inner, std::size_t lines);
+
+  /// The same with a share of the lines, each of which counts for more.
+  GlobalLines Thinned(double share) const;
 
   std::size_t Count() const { return this->Lines_ + this->InnerLines_; }
   const Box& Outer() const { return this->Scene_; }
@@ -50,6 +55,7 @@ public:
 
   private:
     const GlobalLines& Lines_;
+    std::uint64_t Key_;
     EvenPoints Points_, InnerPoints_;
   };
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -26,14 +27,16 @@ namespace smokevis
 namespace
 {
 
-/// Sweeps of the first window in which the orders of scattering build up; each next one is twice as
-/// long, until light drifts less than the tolerance. Sweeps that may be drawn in all.
-constexpr int FirstWindow = 2;
+/// Thin sweeps with which the orders of scattering build up, at most, and the share of the
+/// tolerance that the light may be of which they know nothing yet.
+constexpr int MostThinSweeps = 16;
+constexpr double UncountedShare = 0.5;
+/// Sweeps that may be drawn in all.
 constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.
 constexpr double ErrorShare = 1.0;
-constexpr double DriftShare = 1.0;
+constexpr double DriftShare = 0.7;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
 /// been, and over 200 seeds the bars hold with this.
@@ -61,8 +64,8 @@ private:
     std::vector<BatchState>& batches, std::uint64_t key);
   /// One sweep of this process's batches.
   /// @param meets whether all processes have the sums of all batches afterwards
-  void Sweep(
-    const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool meets);
+  void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool thin,
+    bool meets);
   void ShareSums(std::vector<BatchState>& batches);
   bool BandsEqual(int a, int b) const;
   const DirectField& Inside();
@@ -86,12 +89,13 @@ private:
   tbb::task_arena Arena_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
+  std::shared_ptr<const NearLights> Near_;
   /// Made when a band needs it, once the direct fluence is known.
   std::unique_ptr<DirectField> Inside_;
 };
 
-void Solver::Sweep(
-  const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool meets)
+void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key,
+  bool thin, bool meets)
 {
   // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
   this->Arena_.execute(
@@ -101,7 +105,8 @@ void Solver::Sweep(
         [&](std::size_t i)
         {
           const std::size_t batch = this->Team_.OwnItem(i);
-          sweep.Run(batches[batch], this->Tallies_.local(), Mix(key) + batch, this->Progress_);
+          sweep.Run(
+            batches[batch], this->Tallies_.local(), Mix(key) + batch, thin, this->Progress_);
         });
     });
   this->CheckStop();
@@ -132,54 +137,73 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
   std::vector<BatchState>& batches, std::uint64_t key)
 {
   const PowerBalance balance(this->Scene_, sweep, band);
-  BlockMeans earlier;
+  const auto restart = [&batches]
+  { std::for_each(batches.begin(), batches.end(), [](BatchState& batch) { batch.Restart(); }); };
+  const double limit = DriftShare * this->Options_.Tolerance;
   int done = 0;
-  for (int window = FirstWindow;;)
+  for (double left = 1.0; done < MostThinSweeps && left > UncountedShare * limit;)
   {
-    const int first = done;
-    for (; done < first + window; ++done)
+    // The first sweeps differ much: each is balanced by its own loss.
+    restart();
+    this->Sweep(sweep, batches, key + done, true, true);
+    left = std::pow(balance.SentAgain(batches), ++done);
+    balance.ScaleLatest(batches);
+    this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
+  }
+  restart();
+  std::optional<BlockMeans> earlier;
+  // Sweeps before those that the sums hold, and whether they have left so little light that a drift
+  // would be over.
+  int before = done;
+  bool summed = false;
+  for (int window = 1;;)
+  {
+    const int end = done + window;
+    while (done < end)
     {
-      // The first sweeps differ much: each is balanced by its own loss.
-      if (done == first || first == 0)
-      {
-        for (BatchState& batch : batches)
-        {
-          batch.Restart();
-        }
-      }
-      this->Sweep(sweep, batches, key + done, first == 0 || done + 1 == first + window);
-      if (first == 0)
-      {
-        balance.ScaleLatest(batches);
-      }
+      this->Sweep(sweep, batches, key + done, false, done + 1 == end);
+      ++done;
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
     BlockMeans now(batches, this->Scene_, this->Field_, band);
-    const double limit = DriftShare * this->Options_.Tolerance;
-    const BlockMeans::Drift drift =
-      first > 0 ? now.DriftSince(earlier, this->Options_.Tolerance) : BlockMeans::Drift();
-    const bool tolerable = first > 0 && drift.UpperBound < limit;
-    if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
+    const bool over = std::pow(balance.SentAgain(batches), before) < UncountedShare * limit;
+    bool tolerable = false;
+    bool drifts = true;
+    if (earlier)
     {
-      return done;
-    }
-    if (done + 2 * window > MostSweeps)
-    {
-      // Noise may hide a small drift to the end, or feign one; only a drift that stands out of it
-      // is refused.
-      if (drift.LowerBound < limit)
+      const BlockMeans::Drift drift =
+        (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Options_.Tolerance);
+      drifts = drift.LowerBound > 0.0;
+      tolerable = drift.UpperBound < limit;
+      if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
       {
         return done;
       }
-      throw Error("light field", "the light did not settle in " + std::to_string(done) + " sweeps",
-        "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that light "
-        "is hardly ever lost");
+      // Noise may hide a small drift to the end, or feign one; only a drift that stands out of it
+      // is refused.
+      if (done + 2 * window > MostSweeps)
+      {
+        if (drift.LowerBound < limit)
+        {
+          return done;
+        }
+        throw Error("light field",
+          "the light did not settle in " + std::to_string(done) + " sweeps",
+          "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that "
+          "light is hardly ever lost");
+      }
     }
-    if (first > 0)
-    {
-      balance.ScaleLatest(batches);
-    }
+    summed = over && !(earlier && drifts);
     earlier = std::move(now);
+    if (summed)
+    {
+      // What noise hides is told from more sweeps, all of which count.
+      window = done - before;
+      continue;
+    }
+    balance.ScaleLatest(batches);
+    restart();
+    before = done;
     window = tolerable ? window : 2 * window;
   }
 }
@@ -188,8 +212,8 @@ const DirectField& Solver::Inside()
 {
   if (!this->Inside_)
   {
-    this->Arena_.execute(
-      [this] { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_); });
+    this->Arena_.execute([this]
+      { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_, this->Near_); });
   }
   return *this->Inside_;
 }
@@ -241,7 +265,7 @@ void Solver::SolveMultiple(int band)
     const int until = std::min(MostSweeps, done + std::max(1, wanted - counted));
     for (; done < until; ++done)
     {
-      this->Sweep(sweep, batches, key + done, done + 1 == until);
+      this->Sweep(sweep, batches, key + done, false, done + 1 == until);
       this->Progress_.Report(
         DirectShare + SettleShare +
         (0.95 - DirectShare - SettleShare) * (1.0 - std::exp(-0.02 * (done - settling))));
@@ -344,8 +368,9 @@ LightField Solver::Run()
   {
     throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
   }
+  this->Arena_.execute([this] { this->Near_ = std::make_shared<const NearLights>(this->Scene_); });
   DirectSolve direct(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
-    DirectShare, this->Field_);
+    DirectShare, *this->Near_, this->Field_);
   direct.Cells();
   direct.Patches();
   for (int band = 0; band < this->Field_.Bands; ++band)

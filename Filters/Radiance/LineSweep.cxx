@@ -128,10 +128,10 @@ struct LineSweep::Buffers
 {
   std::vector<Crossing> Crossings;
   std::vector<Segment> Segments;
-  /// Of each piece of the line: cell, length, direct fluence, source luminance, exp(-tau),
+  /// Of each piece of the line: cell, length, tau = its optical depth, source luminance, exp(-tau),
   /// (1 - exp(-tau)) / tau, and the luminance that it adds, (1 - exp(-tau)) times the source.
   std::vector<std::int64_t> Cell;
-  std::vector<float> Length, Direct, Source, Transmittance, Escape, Added;
+  std::vector<float> Length, Depth, Source, Transmittance, Escape, Added;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
   /// Sum of both directions' path integrals.
@@ -144,7 +144,7 @@ LineSweep::LineSweep(
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(LinesFor(scene, band))
+      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
@@ -217,18 +217,29 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   const std::size_t crossings = buffers.Crossings.size();
   buffers.Cell.clear();
   buffers.Length.clear();
-  buffers.Direct.clear();
+  buffers.Depth.clear();
+  buffers.Source.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
   const auto add = [&](std::int64_t cell, double begin, double end)
   {
-    this->Direct_.ForEachPart(cell, origin, direction, begin, end, this->Band_,
-      [&buffers, cell](double part, double direct)
-      {
-        buffers.Cell.push_back(cell);
-        buffers.Length.push_back(static_cast<float>(part));
-        buffers.Direct.push_back(static_cast<float>(direct));
-      });
+    const LineTallies::Cell& own = tallies.Cells[cell];
+    const auto addPart = [&](double part, float source)
+    {
+      buffers.Cell.push_back(cell);
+      buffers.Length.push_back(static_cast<float>(part));
+      buffers.Depth.push_back(own.Extinction * static_cast<float>(part));
+      buffers.Source.push_back(source);
+    };
+    if (!this->Direct_.Varies(cell, this->Band_))
+    {
+      addPart(end - begin, own.Source);
+      return;
+    }
+    const float mean = this->DirectFluence_[cell];
+    this->Direct_.ForEachPart(cell, origin, direction, begin, end, line.Random, this->Band_,
+      [&](double part, double direct)
+      { addPart(part, own.Source + this->Scatter_ * (static_cast<float>(direct) - mean)); });
   };
   std::size_t crossing = 0;
   const auto closeUntil = [&](double distance)
@@ -257,17 +268,13 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   const std::size_t pieces = buffers.Cell.size();
   buffers.First.push_back(pieces);
 
-  buffers.Source.resize(pieces);
   buffers.Transmittance.resize(pieces);
   buffers.Escape.resize(pieces);
   buffers.Added.resize(pieces);
   buffers.Integral.resize(pieces);
   for (std::size_t i = 0; i < pieces; ++i)
   {
-    const std::int64_t cell = buffers.Cell[i];
-    buffers.Source[i] = this->Scatter_ * (buffers.Direct[i] + state.Fluence[cell]) +
-                        (this->Emission_.empty() ? 0.0F : this->Emission_[cell]);
-    const float depth = this->Extinction_[cell] * buffers.Length[i];
+    const float depth = buffers.Depth[i];
     const float transmittance = std::exp(-depth);
     buffers.Transmittance[i] = transmittance;
     buffers.Escape[i] = depth < 0.01F
@@ -320,14 +327,13 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
   for (std::size_t i = 0; i < pieces; ++i)
   {
-    const std::int64_t cell = buffers.Cell[i];
-    tallies.Fluence[cell] +=
-      weight *
-      (buffers.Integral[i] - isotropic * tallies.ExpectedFluence[cell] * buffers.Length[i]);
+    LineTallies::Cell& cell = tallies.Cells[buffers.Cell[i]];
+    cell.Fluence +=
+      weight * (buffers.Integral[i] - isotropic * cell.ExpectedFluence * buffers.Length[i]);
   }
 }
 
-void LineSweep::Expect(const BatchState& state, LineTallies& tallies) const
+void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
 {
   // The tallies measure by how much the radiance differs from that of an expected field: lengths
   // and hits have known expectations, so this leaves the mean as it is and takes their scatter
@@ -335,13 +341,16 @@ void LineSweep::Expect(const BatchState& state, LineTallies& tallies) const
   // itself: its noise would come back larger.
   const bool counted = state.Counted > 0;
   const float scale = counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F;
-  const auto sweeps = static_cast<float>(std::max(1, state.Counted));
+  const float sweeps = counted ? static_cast<float>(state.Counted) : state.Share;
   const std::vector<float>& fluence = counted ? state.FluenceSum : state.Fluence;
-  tallies.ExpectedFluence.resize(fluence.size());
+  tallies.Cells.resize(fluence.size());
   for (std::size_t cell = 0; cell < fluence.size(); ++cell)
   {
-    tallies.ExpectedFluence[cell] =
-      sweeps * this->CellCrossings_[cell] >= FewestMeetings ? scale * fluence[cell] : 0.0F;
+    const float emission = this->Emission_.empty() ? 0.0F : this->Emission_[cell];
+    tallies.Cells[cell] = {
+      this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) + emission,
+      this->Extinction_[cell],
+      sweeps * this->CellCrossings_[cell] >= FewestMeetings ? scale * fluence[cell] : 0.0F, 0.0F};
   }
   const std::vector<float>& illuminance = counted ? state.IlluminanceSum : state.Illuminance;
   tallies.ExpectedIlluminance.resize(illuminance.size());
@@ -350,19 +359,18 @@ void LineSweep::Expect(const BatchState& state, LineTallies& tallies) const
     tallies.ExpectedIlluminance[side] =
       sweeps * this->SideHits_[side] >= FewestMeetings ? scale * illuminance[side] : 0.0F;
   }
+  tallies.Illuminance.assign(illuminance.size(), 0.0F);
+  tallies.Escaped = 0.0;
 }
 
-void LineSweep::Run(
-  BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const
+void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
+  const Progress& progress) const
 {
-  this->Expect(state, tallies);
-  tallies.Fluence.assign(state.Fluence.size(), 0.0F);
-  tallies.Illuminance.assign(state.Illuminance.size(), 0.0F);
-  tallies.Escaped = 0.0;
-
-  const GlobalLines::Draw draw(this->Lines_, key);
+  this->Prepare(state, tallies);
+  const GlobalLines& lines = thin ? this->ThinLines_ : this->Lines_;
+  const GlobalLines::Draw draw(lines, key);
   Buffers buffers;
-  for (std::size_t line = 0; line < this->Lines_.Count(); ++line)
+  for (std::size_t line = 0; line < lines.Count(); ++line)
   {
     if (line % 256 == 0 && progress.ShouldStop())
     {
@@ -373,8 +381,8 @@ void LineSweep::Run(
 
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
-    state.Fluence[cell] =
-      tallies.ExpectedFluence[cell] + this->InverseVolume_[cell] * tallies.Fluence[cell];
+    const LineTallies::Cell& tally = tallies.Cells[cell];
+    state.Fluence[cell] = tally.ExpectedFluence + this->InverseVolume_[cell] * tally.Fluence;
     state.FluenceSum[cell] += state.Fluence[cell];
   }
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
@@ -387,6 +395,7 @@ void LineSweep::Run(
     }
     state.IlluminanceSum[side] += state.Illuminance[side];
   }
+  state.Share = thin ? static_cast<float>(ThinShare) : 1.0F;
   state.EscapedSum += tallies.Escaped;
   ++state.Counted;
 }

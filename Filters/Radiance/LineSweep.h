@@ -16,8 +16,9 @@ class DirectField;
 /// What one batch knows of the light field of one band; indices as in LightField, without the band.
 struct BatchState
 {
-  /// Latest estimate of what is not direct.
+  /// Latest estimate of what is not direct, and the share of a sweep's lines that it is made of.
   std::vector<float> Fluence, Illuminance;
+  float Share = 1.0F;
   /// Sum of the estimates that count, one a sweep.
   std::vector<float> FluenceSum, IlluminanceSum;
   /// Sum of what left the scene [lm], and how many sweeps the sums count.
@@ -33,8 +34,16 @@ struct BatchState
 /// the lines; one a thread.
 struct LineTallies
 {
-  std::vector<float> Fluence, Illuminance;
-  std::vector<float> ExpectedFluence, ExpectedIlluminance;
+  /// All that a line needs of a cell: it lies together, since lines meet cells far apart.
+  struct Cell
+  {
+    /// Luminance of what the cell sends on and emits [cd/m2], and its extinction coefficient [1/m].
+    float Source, Extinction;
+    float ExpectedFluence, Fluence;
+  };
+  std::vector<Cell> Cells;
+  std::vector<float> Illuminance;
+  std::vector<float> ExpectedIlluminance;
   /// Power that left the scene, not a difference [lm].
   double Escaped = 0.0;
 };
@@ -54,12 +63,16 @@ public:
   /// Lines that cross each cell about 1.5 times.
   std::size_t Lines() const { return this->Lines_.Count(); }
 
+  /// Share of the lines that a thin sweep has.
+  static constexpr double ThinShare = 0.25;
+
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
   /// is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
+  /// @param thin whether a share of the lines is enough
   /// @param tallies scratch
-  void Run(
-    BatchState& state, LineTallies& tallies, std::uint64_t key, const Progress& progress) const;
+  void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
+    const Progress& progress) const;
 
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
   /// again of direct light, and what flames, large lights and the sky emit.
@@ -72,8 +85,9 @@ public:
 private:
   struct Buffers;
 
-  /// Expects the light that is known so far of the cells and patches where that tells something.
-  void Expect(const BatchState& state, LineTallies& tallies) const;
+  /// Empties the tallies, and expects the light that is known so far of the cells and patches where
+  /// that tells something.
+  void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
     Buffers& buffers) const;
   /// Radiance that leaves a side of a patch along a line.
@@ -91,7 +105,7 @@ private:
   std::vector<float> Extinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  GlobalLines Lines_;
+  GlobalLines Lines_, ThinLines_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
 };

@@ -13,8 +13,10 @@ namespace smokevis
 namespace
 {
 
-/// Steps of a level's lattice from the plate to the level's end.
-constexpr int Steps = 6;
+/// Steps of a level's lattice from the plate to the level's end: of the innermost, which is
+/// interpolated linearly since it follows a pattern, and of others.
+constexpr int InnermostSteps = 6;
+constexpr int Steps = 5;
 /// A level has no more steps than this along one side of the plate.
 constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
@@ -92,16 +94,17 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   this->Extinction_ = cell < 0 ? 0.0 : scene.Smoke().Extinction(cell);
 
   // The innermost level follows the plate's pattern.
-  double first = std::max(FinestEdge(lights, root), Steps * longest / MostStepsAcross);
+  double first = std::max(FinestEdge(lights, root), InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {
     auto level = std::make_unique<Level>();
     level->Reach = distance;
+    const double step = distance / (this->Levels_.empty() ? InnermostSteps : Steps);
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
-      const int steps = static_cast<int>(std::ceil(2.0 * half / (distance / Steps) - Rounding));
+      const int steps = static_cast<int>(std::ceil(2.0 * half / step - Rounding));
       level->Count[axis] = steps + 1;
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;
@@ -158,7 +161,10 @@ double NearField::PlateAngle(const Vec3& place) const
 
 double NearField::EvenDepth(const Vec3& place, int band) const
 {
-  return this->Extinction_ * this->Scene_.ExtinctionScale(band) * glm::length(place);
+  // The root of the mean square of the distances to all places of the plate.
+  const double plate = (this->Half_[0] * this->Half_[0] + this->Half_[1] * this->Half_[1]) / 3.0;
+  return this->Extinction_ * this->Scene_.ExtinctionScale(band) *
+         std::sqrt(glm::dot(place, place) + plate);
 }
 
 float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
@@ -188,6 +194,17 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
   return kept.load(std::memory_order_relaxed);
 }
 
+double NearField::Away(const Vec3& place) const
+{
+  return std::max(
+    {std::abs(place.x) - this->Half_[0], std::abs(place.y) - this->Half_[1], place.z, 0.0});
+}
+
+bool NearField::Smooth(const Vec3& point) const
+{
+  return this->Away(this->ToPlate(point)) > this->Levels_.front()->Reach;
+}
+
 double NearField::Fluence(const Vec3& point, int band) const
 {
   const Vec3 place = this->ToPlate(point);
@@ -195,15 +212,60 @@ double NearField::Fluence(const Vec3& point, int band) const
   {
     return 0.0;
   }
-  const double away = std::max(
-    {std::abs(place.x) - this->Half_[0], std::abs(place.y) - this->Half_[1], place.z, 0.0});
-  const auto found = std::lower_bound(this->Levels_.begin(), this->Levels_.end(), away,
+  const auto found = std::lower_bound(this->Levels_.begin(), this->Levels_.end(), this->Away(place),
     [](const std::unique_ptr<Level>& level, double value) { return level->Reach < value; });
   if (found == this->Levels_.end())
   {
     return this->Direct_.Fluence(this->Light_, point, true)[band];
   }
   const Level& level = **found;
+  const double even = this->PlateAngle(place);
+  if (found != this->Levels_.begin())
+  {
+    const double logarithm = this->Quadratic(level, place, band);
+    if (std::isfinite(logarithm))
+    {
+      return even * std::exp(logarithm - this->EvenDepth(place, band));
+    }
+  }
+  return even * this->Linear(level, place, band);
+}
+
+double NearField::Quadratic(const Level& level, const Vec3& place, int band) const
+{
+  std::array<int, 3> first;
+  std::array<std::array<double, 3>, 3> weights;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double at = (place[axis] - level.First[axis]) / level.Step[axis];
+    const int nearest = std::clamp(static_cast<int>(std::lround(at)), 1, level.Count[axis] - 2);
+    const double t = at - nearest;
+    first[axis] = nearest - 1;
+    weights[axis] = {0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)};
+  }
+  double sum = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const double value =
+          this->NodeValue(level, {first[0] + i, first[1] + j, first[2] + k}, band);
+        sum += weights[0][i] * weights[1][j] * weights[2][k] * value;
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    }
+  }
+  // Where smoke changes from cell to cell by much, a quadratic would overshoot.
+  return std::isfinite(least) ? std::clamp(sum, least, most) : least;
+}
+
+double NearField::Linear(const Level& level, const Vec3& place, int band) const
+{
   std::array<int, 3> node;
   std::array<double, 3> share;
   for (int axis = 0; axis < 3; ++axis)
@@ -212,9 +274,9 @@ double NearField::Fluence(const Vec3& point, int band) const
     node[axis] = std::clamp(static_cast<int>(at), 0, level.Count[axis] - 2);
     share[axis] = std::clamp(at - node[axis], 0.0, 1.0);
   }
-  std::array<double, 8> weights;
-  std::array<float, 8> values;
-  double logarithm = 0.0;
+  const double depth = this->EvenDepth(place, band);
+  double logarithm = -depth;
+  double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
     std::array<int, 3> other = node;
@@ -225,21 +287,11 @@ double NearField::Fluence(const Vec3& point, int band) const
       other[axis] += upper ? 1 : 0;
       weight *= upper ? share[axis] : 1.0 - share[axis];
     }
-    weights[corner] = weight;
-    values[corner] = this->NodeValue(level, other, band);
-    logarithm += weight * values[corner];
+    const double value = this->NodeValue(level, other, band);
+    logarithm += weight * value;
+    sum += weight * std::exp(value - depth);
   }
-  const double even = this->PlateAngle(place);
-  if (std::isfinite(logarithm))
-  {
-    return even * std::exp(logarithm - this->EvenDepth(place, band));
-  }
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    sum += weights[corner] * std::exp(static_cast<double>(values[corner]));
-  }
-  return even * sum * std::exp(-this->EvenDepth(place, band));
+  return std::isfinite(logarithm) ? std::exp(logarithm) : sum;
 }
 
 } // namespace smokevis

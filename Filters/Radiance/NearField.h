@@ -26,17 +26,28 @@ public:
   /// Fluence at a point that sees the whole light [lx].
   double Fluence(const Vec3& point, int band) const;
 
+  /// Whether a point lies farther from the plate than the innermost box, where the fluence follows
+  /// the plate's pattern more closely than the lattice does.
+  bool Smooth(const Vec3& point) const;
+
 private:
   struct Level;
 
   /// Logarithm of the light's fluence at a node over the closed form's; -infinity where it is 0.
   float NodeValue(const Level& level, const std::array<int, 3>& node, int band) const;
+  /// The same at a place, by the quadratic through the nodes around it; not finite where it is 0 at
+  /// one of them.
+  double Quadratic(const Level& level, const Vec3& place, int band) const;
+  /// The light's fluence at a place over that of the plate without smoke, by linear interpolation.
+  double Linear(const Level& level, const Vec3& place, int band) const;
   /// Place relative to the plate's centre: along its edges and along its normal.
   Vec3 ToPlate(const Vec3& point) const;
   Vec3 FromPlate(const Vec3& place) const;
+  /// How far a place before the plate is from the plate, as boxes are [m].
+  double Away(const Vec3& place) const;
   /// Solid angle of the plate's rectangle at a place in front of it.
   double PlateAngle(const Vec3& place) const;
-  /// Optical depth of even smoke between a place and the plate's centre.
+  /// Optical depth of even smoke between a place and the plate.
   double EvenDepth(const Vec3& place, int band) const;
 
   const Scene& Scene_;

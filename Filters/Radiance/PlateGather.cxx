@@ -114,7 +114,8 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
     for (int batch = 0; batch < Batches; ++batch)
     {
       // Even over the plate, and over directions by their cosine.
-      const EvenPoints points(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + batch);
+      const std::uint64_t key = Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + batch;
+      const EvenPoints points(key);
       for (int ray = done; ray < rays; ++ray)
       {
         const auto random = points.Point(ray);
@@ -123,8 +124,8 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
         const Vec3 direction = sine * std::cos(angle) * tangent + sine * std::sin(angle) * other +
                                std::sqrt(1.0 - random[2]) * sign.Normal;
         sums[batch] +=
-          glm::pi<double>() *
-          this->Radiance(base + random[0] * edgeU + random[1] * edgeV, direction, batch);
+          glm::pi<double>() * this->Radiance(base + random[0] * edgeU + random[1] * edgeV,
+                                direction, ToUnit(Mix(key + ray)), batch);
       }
       illuminance[batch] = static_cast<float>(sums[batch] / rays);
     }
@@ -139,7 +140,8 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
   return result;
 }
 
-double PlateGather::Radiance(const Vec3& origin, const Vec3& direction, int batch) const
+double PlateGather::Radiance(
+  const Vec3& origin, const Vec3& direction, double place, int batch) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const Hit hit = this->Scene_.Shapes().Intersect(
@@ -156,15 +158,23 @@ double PlateGather::Radiance(const Vec3& origin, const Vec3& direction, int batc
     const double multiple =
       this->Field_.MultipleFluence[this->Field_.CellIndex(this->Band_, segment.Cell)][batch];
     const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
-    this->Direct_.ForEachPart(segment.Cell, origin, direction, segment.Begin, segment.End,
-      this->Band_,
-      [&](double length, double direct)
-      {
-        const double own = extinction * length;
-        const double source = albedo / (4.0 * glm::pi<double>()) * (direct + multiple) + emitted;
-        sum += std::exp(-depth) * -std::expm1(-own) * source;
-        depth += own;
-      });
+    const auto add = [&](double length, double direct)
+    {
+      const double own = extinction * length;
+      const double source = albedo / (4.0 * glm::pi<double>()) * (direct + multiple) + emitted;
+      sum += std::exp(-depth) * -std::expm1(-own) * source;
+      depth += own;
+    };
+    if (this->Direct_.Varies(segment.Cell, this->Band_))
+    {
+      this->Direct_.ForEachPart(
+        segment.Cell, origin, direction, segment.Begin, segment.End, place, this->Band_, add);
+    }
+    else
+    {
+      add(segment.End - segment.Begin,
+        this->Field_.DirectFluence[this->Field_.CellIndex(this->Band_, segment.Cell)]);
+    }
     if (depth > DeepestDepth)
     {
       return sum;

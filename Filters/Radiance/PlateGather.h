@@ -35,7 +35,7 @@ private:
   };
   Result Gather(std::size_t index, const Progress& progress) const;
   /// Light that comes in against a ray in one batch, without what emitters send directly [cd/m2].
-  double Radiance(const Vec3& origin, const Vec3& direction, int batch) const;
+  double Radiance(const Vec3& origin, const Vec3& direction, double place, int batch) const;
   double Leaving(const Hit& hit, const Vec3& direction, int batch) const;
 
   const Scene& Scene_;

@@ -91,6 +91,20 @@ double PowerBalance::ScaleFor(double loss) const
   return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : LargestScale;
 }
 
+double PowerBalance::SentAgain(const std::vector<BatchState>& batches) const
+{
+  double later = 0.0;
+  double loss = 0.0;
+  for (const BatchState& batch : batches)
+  {
+    later += this->Sweep_.LaterSource(batch);
+    loss += this->Sweep_.Loss(batch);
+    // Much of the sky's light meets nothing on its way through.
+    loss -= this->Sky_ ? batch.EscapedSum / batch.Counted : 0.0;
+  }
+  return later > 0.0 && loss > 0.0 ? later / (loss + later) : later > 0.0 ? 1.0 : 0.0;
+}
+
 void PowerBalance::ScaleLatest(std::vector<BatchState>& batches) const
 {
   if (this->Sky_)

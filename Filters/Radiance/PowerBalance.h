@@ -19,6 +19,9 @@ class PowerBalance
 public:
   PowerBalance(const Scene& scene, const LineSweep& sweep, int band);
 
+  /// Share of the light that smoke and surfaces take up or let go which they send on again: its
+  /// power to n is about the share that is sent on more than n times.
+  double SentAgain(const std::vector<BatchState>& batches) const;
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
   /// they do not agree better each for itself. Throws an error where hardly any light is ever lost.
   void ScaleLatest(std::vector<BatchState>& batches) const;

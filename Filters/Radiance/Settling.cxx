@@ -1,6 +1,7 @@
 #include "Settling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace smokevis
@@ -9,8 +10,11 @@ namespace smokevis
 namespace
 {
 
-/// Few blocks are known well; more would only show how noise differs from place to place.
-constexpr std::size_t MostBlocks = 16;
+/// Few blocks are known well; more would only show how noise differs from place to place. Cells
+/// count by where they lie, so that it does not matter how meshes part the smoke; it lies in
+/// layers.
+constexpr std::array<int, 3> CellBlocks = {2, 2, 4};
+constexpr std::size_t MostPatchBlocks = 16;
 /// Share of the mean light of all blocks that a dark block is given, so that it need not be known
 /// to a share of next to nothing.
 constexpr double DarkShare = 0.1;
@@ -41,26 +45,41 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 BlockMeans::BlockMeans(
   const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
+    : Counted_(batches.front().Counted)
 {
-  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little.
+  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little,
+  // and so does that in the air where nothing scatters at all.
   const Medium& smoke = scene.Smoke();
-  std::vector<float> weights(field.Cells);
-  for (std::size_t cell = 0; cell < field.Cells; ++cell)
+  const double least = scene.Albedo() * smoke.MaximumExtinction() > 0.0
+                         ? 0.0
+                         : DarkShare / glm::length(scene.Upper() - scene.Lower());
+  std::vector<Share> shares(field.Cells);
+  const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
+  for (std::size_t i = 0; i < field.Cells; ++i)
   {
-    const auto own = static_cast<std::int64_t>(cell);
-    weights[cell] =
-      static_cast<float>(scene.Albedo() * smoke.Extinction(own) * smoke.CellVolume(own));
+    const auto cell = static_cast<std::int64_t>(i);
+    const Vec3 place = (smoke.CellCentre(cell) - smoke.Lower()) / extent;
+    std::size_t block = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int count = CellBlocks[axis];
+      block = block * count + std::clamp(static_cast<int>(count * place[axis]), 0, count - 1);
+    }
+    shares[i] = {
+      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.CellVolume(cell)};
   }
   this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
-    weights);
-  weights.resize(2 * field.Patches);
-  for (std::size_t side = 0; side < weights.size(); ++side)
+    shares);
+  shares.resize(2 * field.Patches);
+  const std::size_t patchBlocks = std::min(MostPatchBlocks, shares.size());
+  for (std::size_t side = 0; side < shares.size(); ++side)
   {
-    weights[side] = static_cast<float>(scene.ExposedArea(side / 2, side % 2) *
-                                       std::max(DarkShare, scene.PatchReflectance(side / 2)[band]));
+    shares[side] = {side * patchBlocks / shares.size(),
+      scene.ExposedArea(side / 2, side % 2) *
+        std::max(DarkShare, scene.PatchReflectance(side / 2)[band])};
   }
   this->Add(batches, &BatchState::IlluminanceSum,
-    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), weights);
+    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), shares);
   double all = 0.0;
   for (const Block& block : this->Blocks_)
   {
@@ -76,25 +95,41 @@ BlockMeans::BlockMeans(
 }
 
 void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
-  const float* direct, const std::vector<float>& weights)
+  const float* direct, const std::vector<Share>& shares)
 {
-  const std::size_t count = weights.size();
-  const std::size_t parts = std::min(MostBlocks, count);
-  for (std::size_t part = 0; part < parts; ++part)
+  const std::size_t first = this->Blocks_.size();
+  for (std::size_t i = 0; i < shares.size(); ++i)
   {
-    Block block;
-    block.Multiple.assign(batches.size(), 0.0);
-    for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i)
+    const std::size_t index = first + shares[i].Block;
+    if (index >= this->Blocks_.size())
     {
-      block.Direct += weights[i] * direct[i];
-      for (std::size_t batch = 0; batch < batches.size(); ++batch)
-      {
-        block.Multiple[batch] +=
-          weights[i] * (batches[batch].*sums)[i] / std::max(1, batches[batch].Counted);
-      }
+      this->Blocks_.resize(index + 1, Block{0.0, std::vector<double>(batches.size(), 0.0), false});
     }
-    this->Blocks_.push_back(std::move(block));
+    Block& block = this->Blocks_[index];
+    block.Direct += shares[i].Weight * direct[i];
+    for (std::size_t batch = 0; batch < batches.size(); ++batch)
+    {
+      block.Multiple[batch] += shares[i].Weight * (batches[batch].*sums)[i] /
+                               static_cast<double>(std::max(1, batches[batch].Counted));
+    }
   }
+}
+
+BlockMeans BlockMeans::Since(const BlockMeans& earlier) const
+{
+  BlockMeans since = *this;
+  since.Counted_ = this->Counted_ - earlier.Counted_;
+  for (std::size_t index = 0; index < since.Blocks_.size(); ++index)
+  {
+    for (std::size_t batch = 0; batch < since.Blocks_[index].Multiple.size(); ++batch)
+    {
+      since.Blocks_[index].Multiple[batch] =
+        (this->Counted_ * this->Blocks_[index].Multiple[batch] -
+          earlier.Counted_ * earlier.Blocks_[index].Multiple[batch]) /
+        since.Counted_;
+    }
+  }
+  return since;
 }
 
 BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const

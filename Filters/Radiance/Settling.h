@@ -19,6 +19,9 @@ public:
   BlockMeans(
     const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band);
 
+  /// Those of the sweeps since earlier means of the same sums were taken.
+  BlockMeans Since(const BlockMeans& earlier) const;
+
   /// Root mean square, over the blocks, of a drift over all light of the block (or over a floor
   /// where a block lies in the dark).
   struct Drift
@@ -42,12 +45,19 @@ private:
     bool Lit = false;
   };
 
+  /// Which block a value belongs to, and what it counts there.
+  struct Share
+  {
+    std::size_t Block = 0;
+    double Weight = 0.0;
+  };
   void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
-    const float* direct, const std::vector<float>& weights);
+    const float* direct, const std::vector<Share>& shares);
 
-  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches; all blocks
-  /// of one kind span about as many values.
+  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
   std::vector<Block> Blocks_;
+  /// Sweeps that they are means of.
+  int Counted_ = 0;
 };
 
 } // namespace smokevis

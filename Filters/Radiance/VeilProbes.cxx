@@ -18,6 +18,9 @@ constexpr int MostProbes = 64;
 constexpr double FarthestDepth = 12.0;
 /// Light fainter than this share of the brightest emitter need not be known to a share of itself.
 constexpr double FaintestShare = 1e-7;
+/// Where there are no signs, neither need the light be known to a share of itself that is fainter
+/// than this share of the mean.
+constexpr double DarkShare = 0.1;
 
 Vec3 SphereDirection(double first, double second)
 {
@@ -40,7 +43,7 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
     brightest = std::max(brightest, cell.Luminance[band]);
   }
   this->Floor_ = FaintestShare * brightest;
-  this->MeanShare_ = signs.empty() ? 1.0 : 0.0;
+  this->MeanShare_ = signs.empty() ? DarkShare : 0.0;
   const double size = glm::length(scene.Upper() - scene.Lower());
   for (int i = 0; i < MostProbes; ++i)
   {

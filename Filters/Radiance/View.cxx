@@ -55,7 +55,8 @@ Lanes RayLight::TotalLanes() const
 struct View::Implementation
 {
   explicit Implementation(const Scene& scene, const LightField& field)
-      : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
+      : TheScene(scene), Field(field), Direct(scene),
+        DirectFluence(scene, field, std::make_shared<const NearLights>(scene))
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {

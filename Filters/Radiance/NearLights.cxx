@@ -1,0 +1,105 @@
+#include "NearLights.h"
+
+#include "Scene.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// A light counts as near to a cell within so many cell edges of the cell. Not a whole number, so
+/// that no distance of a regular scene is at the limit, where rounding would decide.
+constexpr double NearEdges = 4.01;
+/// Closer than this, a cell's mean is not found from a few points.
+constexpr double CloseEdges = 2.01;
+/// Sharpest law of emission of lights whose fluence is kept on lattices.
+constexpr double SmoothestLaw = 2.0;
+
+double LongestEdge(const Vec3& size)
+{
+  return std::max({size.x, size.y, size.z});
+}
+
+} // namespace
+
+NearLights::NearLights(const Scene& scene)
+    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size())
+{
+  const Medium& smoke = scene.Smoke();
+  const EmitterSet& lights = scene.Lights();
+  if (smoke.Empty() || scene.Albedo() == 0.0)
+  {
+    return;
+  }
+  this->Places_.assign(smoke.Cells(), -1);
+  for (std::size_t light = 0; light < this->Fields_.size(); ++light)
+  {
+    const double reach = this->FindCells(light);
+    // Light that changes quickly with the angle would need finer lattices.
+    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
+    {
+      this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, reach);
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, this->Cells_.size(),
+    [&](std::size_t i)
+    {
+      Cell& cell = this->Cells_[i];
+      const double edge = LongestEdge(smoke.CellSize(cell.Index));
+      for (Light& light : cell.Lights)
+      {
+        light.Clear = this->Direct_.Clear(light.Index, cell.Index);
+        cell.Close = cell.Close || lights.Groups()[lights.Lights()[light.Index]].Distance(
+                                     smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+      }
+    });
+}
+
+double NearLights::FindCells(std::size_t light)
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const double largest = NearEdges * smoke.LargestEdge();
+  const Vec3 low = glm::min(glm::min(root.Corners[0], root.Corners[1]),
+                     glm::min(root.Corners[2], root.Corners[3])) -
+                   largest;
+  const Vec3 high = glm::max(glm::max(root.Corners[0], root.Corners[1]),
+                      glm::max(root.Corners[2], root.Corners[3])) +
+                    largest;
+  double reach = 0.0;
+  smoke.ForCellsIn(low, high,
+    [&](std::int64_t cell)
+    {
+      if (smoke.Extinction(cell) == 0.0F)
+      {
+        return;
+      }
+      const Vec3 centre = smoke.CellCentre(cell);
+      const Vec3 size = smoke.CellSize(cell);
+      const double distance = root.Distance(centre);
+      // Behind a plate there is none of its light.
+      if (distance >= NearEdges * LongestEdge(size) ||
+          glm::dot(centre - root.Centre, root.Normal) <= -root.Radius - glm::length(size))
+      {
+        return;
+      }
+      std::int32_t& place = this->Places_[cell];
+      if (place < 0)
+      {
+        place = static_cast<std::int32_t>(this->Cells_.size());
+        this->Cells_.push_back({cell, {}, false});
+      }
+      this->Cells_[place].Lights.push_back({static_cast<std::uint32_t>(light), false});
+      reach = std::max(reach, distance + 0.5 * glm::length(size));
+    });
+  return reach;
+}
+
+} // namespace smokevis
