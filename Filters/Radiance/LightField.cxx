@@ -35,8 +35,11 @@ constexpr double UncountedShare = 0.5;
 constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.
-constexpr double ErrorShare = 1.0;
+constexpr double ErrorShare = 0.5;
 constexpr double DriftShare = 0.7;
+/// Share of that which noise may hide where next to no light is sent on any more that could drift:
+/// the mean over two windows has half the noise of their difference.
+constexpr double HiddenShare = 2.0;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
 /// been, and over 200 seeds the bars hold with this.
@@ -174,7 +177,8 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
       const BlockMeans::Drift drift =
         (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Options_.Tolerance);
       drifts = drift.LowerBound > 0.0;
-      tolerable = drift.UpperBound < limit;
+      tolerable = drift.UpperBound < limit || (over && !drifts && drift.Estimate < limit &&
+                                                drift.UpperBound < HiddenShare * limit);
       if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
       {
         return done;

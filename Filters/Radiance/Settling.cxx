@@ -19,6 +19,10 @@ constexpr std::size_t MostPatchBlocks = 16;
 /// to a share of next to nothing.
 constexpr double DarkShare = 0.1;
 
+/// Standard errors that a drift must be above 0 to be taken for one: window after window is asked,
+/// so that one would be too few.
+constexpr double LowerDeviations = 2.5;
+
 double MeanOf(const std::vector<double>& values)
 {
   double sum = 0.0;
@@ -175,7 +179,8 @@ BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resol
   // Blocks drift together: how far noise moves the estimate is told by a jackknife over batches.
   const double deviation = (Batches - 1.0) * std::sqrt(VarianceOf(without, MeanOf(without)));
   const auto root = [weights](double value) { return std::sqrt(std::max(0.0, value) / weights); };
-  return {root(square - deviation), root(square), root(std::max(0.0, square) + deviation)};
+  return {root(square - LowerDeviations * deviation), root(square),
+    root(std::max(0.0, square) + deviation)};
 }
 
 } // namespace smokevis

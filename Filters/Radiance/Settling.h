@@ -26,7 +26,8 @@ public:
   /// where a block lies in the dark).
   struct Drift
   {
-    /// Noise taken out, and a standard error below and above that.
+    /// Noise taken out; below the lower bound noise would hardly have taken it, and the upper one
+    /// is a standard error above it.
     double LowerBound = 0.0;
     double Estimate = 0.0;
     double UpperBound = 0.0;

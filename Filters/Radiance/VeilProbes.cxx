@@ -57,11 +57,14 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
       continue;
     }
     const Sign& sign = signs[i % signs.size()];
-    Vec3 away = SphereDirection(random[0], random[1]);
-    away = glm::dot(away, sign.Normal) < 0.0 ? -away : away;
     const Vec3 start = sign.Centre + 10.0 * scene.Shapes().Tolerance() * sign.Normal;
-    const Hit end = scene.Shapes().Intersect(start, away, 0.0, size);
-    double farthest = std::min(end.Distance, size);
+    // Towards a place anywhere in the scene: signs are looked for from afar.
+    Vec3 way = scene.Lower() +
+               Vec3(random[0], random[1], random[2]) * (scene.Upper() - scene.Lower()) - start;
+    way -= std::min(0.0, 2.0 * glm::dot(way, sign.Normal)) * sign.Normal;
+    const Vec3 away = glm::normalize(way);
+    double farthest =
+      std::min(scene.Shapes().Intersect(start, away, 0.0, size).Distance, glm::length(way));
     std::vector<Segment> segments;
     scene.Smoke().Walk(start, away, 0.0, farthest, segments);
     double depth = 0.0;
@@ -77,8 +80,7 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
         break;
       }
     }
-    const double reach = (0.1 + 0.9 * random[2]) * farthest;
-    this->Add(scene, field, band, start + reach * away, -away, reach);
+    this->Add(scene, field, band, start + farthest * away, -away, farthest);
   }
 }
 
