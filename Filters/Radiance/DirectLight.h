@@ -60,6 +60,8 @@ private:
   /// One way stands for all ways to a group of radius r at a distance d below this r/d; above it
   /// each Gauss point of a leaf has its own.
   static constexpr double PathRatio = 0.1;
+  /// A box as large as this share of its distance to the light is split.
+  static constexpr double BoxRatio = 0.5;
 
   /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
   /// [1/m]: a polynomial through three by three of them.

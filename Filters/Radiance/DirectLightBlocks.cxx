@@ -1,0 +1,232 @@
+// DirectLight's part for blocks of smoke cells, which share the ways to a light.
+#include "DirectLight.h"
+
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Cells along the edges of the smallest block in which ways tell of each other, error of an
+/// optical depth that is told so, and where in the block it is measured.
+constexpr int SmallestBlock = 4;
+constexpr double WayTolerance = 0.004;
+constexpr std::array<std::array<double, 3>, 3> WayChecks = {
+  {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
+/// Share of the fluence of the other lights that all lights left out may add: single precision
+/// does not show it.
+constexpr double NegligibleShare = 1e-7;
+/// Share of the fluence of the other lights, times the number of lights, below which the mean of a
+/// light over a cell is taken without Gauss points, to a few percent of itself.
+constexpr double WeakShare = 0.05;
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// Where a cell lies between the first and the last of its block, 0 to 1.
+Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
+{
+  Vec3 share(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    share[axis] =
+      block.Size[axis] > 1 ? static_cast<double>(place[axis]) / (block.Size[axis] - 1) : 0.0;
+  }
+  return share;
+}
+
+/// Value between those at the corners of a box, first axis fastest.
+double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
+{
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    sum += corners[corner] * (corner & 1 ? share.x : 1.0 - share.x) *
+           (corner & 2 ? share.y : 1.0 - share.y) * (corner & 4 ? share.z : 1.0 - share.z);
+  }
+  return sum;
+}
+
+} // namespace
+
+double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Vec3 from = smoke.CellCentre(cell);
+  const double distance = glm::length(root.Centre - from);
+  return smoke.OpticalDepth(from, (root.Centre - from) / distance, 0.0, distance) / distance;
+}
+
+double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
+  const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const
+{
+  if (root.Law.Measured())
+  {
+    return Infinity;
+  }
+  const Medium& smoke = this->Scene_.Smoke();
+  // No cell gets more than all of the plate would send it from the nearest place of the block.
+  const Vec3 low = smoke.CellCentre(smoke.Cell(block, {0, 0, 0}));
+  const Vec3 high =
+    smoke.CellCentre(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1}));
+  const double reach = 0.5 * glm::length(high - low) + root.Radius;
+  const double distance = glm::length(root.Centre - 0.5 * (low + high)) - reach;
+  if (!(distance > reach))
+  {
+    return Infinity;
+  }
+  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - WayTolerance;
+  Spectrum most{};
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    most[band] = root.Intensity[band] / (distance * distance) *
+                 std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+  }
+  double share = 0.0;
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
+        }
+      }
+    }
+  }
+  return share;
+}
+
+std::optional<DirectLight::Told> DirectLight::BlockWays(
+  const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const auto cornerCell = [&](int corner)
+  {
+    return smoke.Cell(
+      block, {corner & 1 ? block.Size[0] - 1 : 0, corner & 2 ? block.Size[1] - 1 : 0,
+               corner & 4 ? block.Size[2] - 1 : 0});
+  };
+  const Vec3 low = smoke.CellCentre(cornerCell(0));
+  const Vec3 high = smoke.CellCentre(cornerCell(7));
+  const double distance =
+    glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
+  const Vec3 size = smoke.CellSize(cornerCell(0));
+  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
+      edge > 0.5 * BoxRatio * distance)
+  {
+    return std::nullopt;
+  }
+  Told told;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::int64_t cell = cornerCell(corner);
+    // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
+    if (smoke.Extinction(cell) == 0.0F && smoke.MaximumExtinction() > 0.0F)
+    {
+      return std::nullopt;
+    }
+    told.Ways[corner] = this->WayExtinction(root, cell);
+  }
+  told.Share = this->LargestShare(root, block, told.Ways, sums) *
+               static_cast<double>(this->Scene_.Lights().Lights().size());
+  const double allowed = WayTolerance * std::max(1.0, 1.0 / told.Share);
+  const double scale = this->Scene_.LargestScale();
+  for (const auto& share : WayChecks)
+  {
+    std::array<int, 3> place;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
+    }
+    const std::int64_t cell = smoke.Cell(block, place);
+    const double there = Trilinear(told.Ways, BlockShare(block, place));
+    const double way = glm::length(root.Centre - smoke.CellCentre(cell));
+    if (std::abs(there - this->WayExtinction(root, cell)) * way * scale > allowed)
+    {
+      return std::nullopt;
+    }
+  }
+  return told;
+}
+
+DirectLight::BlockWork DirectLight::AddBlockFluence(
+  std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Medium& smoke = this->Scene_.Smoke();
+  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
+  std::optional<Told> told;
+  if (skips && largest >= SmallestBlock)
+  {
+    told = this->BlockWays(root, block, sums);
+  }
+  BlockWork work;
+  if (!told && largest > SmallestBlock)
+  {
+    const int half = (largest + 1) / 2;
+    for (int part = 0; part < 8; ++part)
+    {
+      Medium::Block child = block;
+      bool empty = false;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int first = part >> axis & 1 ? half : 0;
+        child.First[axis] += first;
+        child.Size[axis] = std::min(half, block.Size[axis] - first);
+        empty = empty || child.Size[axis] <= 0;
+      }
+      if (!empty)
+      {
+        const BlockWork own = this->AddBlockFluence(light, child, skips, sums);
+        work.Told += own.Told;
+        work.Negligible += own.Negligible;
+      }
+    }
+    return work;
+  }
+  if (told && told->Share < NegligibleShare)
+  {
+    work.Negligible = static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
+    return work;
+  }
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        if (smoke.Parts().Find(cell))
+        {
+          // The parts of a cell are measured each by itself.
+          continue;
+        }
+        const Spectrum value =
+          told ? this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
+                                    told->Share < WeakShare},
+                   smoke.CellCentre(cell), smoke.CellSize(cell), 0)
+               : this->CellFluence(light, cell);
+        work.Told += told ? 1 : 0;
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          sums[cell][band] += value[band];
+        }
+      }
+    }
+  }
+  return work;
+}
+
+} // namespace smokevis
