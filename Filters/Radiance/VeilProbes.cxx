@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr int MostProbes = 64;
+/// Share of the way to a wall at which the eye is.
+constexpr double EyeShare = 0.98;
 /// Farther than this optical depth from a sign, no one asks for it.
 constexpr double FarthestDepth = 12.0;
 /// Light fainter than this share of the brightest emitter need not be known to a share of itself.
@@ -80,7 +82,9 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
         break;
       }
     }
-    this->Add(scene, field, band, start + farthest * away, -away, farthest);
+    // No eye lies on a wall.
+    const double reach = EyeShare * farthest;
+    this->Add(scene, field, band, start + reach * away, -away, reach);
   }
 }
 
