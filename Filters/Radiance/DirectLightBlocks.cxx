@@ -14,9 +14,11 @@ namespace
 {
 
 /// Cells along the edges of the smallest block in which ways tell of each other, error of an
-/// optical depth that is told so, and where in the block it is measured.
+/// optical depth that is told so, that of the weakest lights, and where in the block it is
+/// measured.
 constexpr int SmallestBlock = 4;
 constexpr double WayTolerance = 0.004;
+constexpr double RoughWayTolerance = 0.5;
 constexpr std::array<std::array<double, 3>, 3> WayChecks = {
   {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
 /// Share of the fluence of the other lights that all lights left out may add: single precision
@@ -79,7 +81,7 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
   {
     return Infinity;
   }
-  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - WayTolerance;
+  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - RoughWayTolerance;
   Spectrum most{};
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
@@ -139,7 +141,10 @@ std::optional<DirectLight::Told> DirectLight::BlockWays(
   }
   told.Share = this->LargestShare(root, block, told.Ways, sums) *
                static_cast<double>(this->Scene_.Lights().Lights().size());
-  const double allowed = WayTolerance * std::max(1.0, 1.0 / told.Share);
+  // A weak light may be off by as much of the whole as the strongest; but the share is a bound only
+  // where the corners do tell of what lies between.
+  const double allowed =
+    std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / told.Share));
   const double scale = this->Scene_.LargestScale();
   for (const auto& share : WayChecks)
   {

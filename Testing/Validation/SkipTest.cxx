@@ -111,9 +111,9 @@ TEST(Skip, StrongLampFarOff)
   report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.005);
 }
 
-// A slot of clear air, one cell wide, through a wall of smoke that lets nothing else pass: light of
-// the lamp beyond reaches few cells of each block, and those by the slot alone.
-TEST(Skip, ThinClearGap)
+/// The corridor with a wall of smoke, five metres thick, that lets light pass by a slot alone, one
+/// cell wide; all lamps but the first four are taken away.
+SceneDescription Slot()
 {
   SceneDescription scene = Corridor(0.05);
   SmokeGrid& grid = scene.Grids[0];
@@ -128,9 +128,28 @@ TEST(Skip, ThinClearGap)
     }
   }
   scene.Emitters.erase(scene.Emitters.begin() + 4, scene.Emitters.end());
+  return scene;
+}
+
+// Light of the lamps beyond reaches few cells of each block, and those by the slot alone.
+TEST(Skip, ThinClearGap)
+{
+  const SceneDescription scene = Slot();
   const Outcome skipping = Solve(scene, true);
   const Outcome all = Solve(scene, false);
   report::Head("Corridor with a slot in a wall of smoke");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
+}
+
+// On the far side of the wall a lamp of its own outshines what comes through the smoke, but not
+// what comes through the slot.
+TEST(Skip, ThinClearGapBesideALamp)
+{
+  SceneDescription scene = Slot();
+  scene.Emitters.push_back(Corridor(0.05).Emitters.back());
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("The same with another lamp on the far side");
   report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
 }
 
