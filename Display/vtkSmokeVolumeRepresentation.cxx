@@ -5,7 +5,7 @@
 
 #include <vtkActor.h>
 #include <vtkAlgorithmOutput.h>
-#include <vtkCellArray.h>
+#include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataObject.h>
@@ -17,9 +17,9 @@
 #include <vtkMatrix4x4.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
+#include <vtkOutlineSource.h>
 #include <vtkPVRenderView.h>
 #include <vtkPiecewiseFunction.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -46,36 +46,21 @@ constexpr int OutlinePort = 1;
 // The twelve edges of each mesh, in double precision: runs lie in the coordinates of a city.
 void MakeOutline(const std::vector<DrawnMesh>& meshes, vtkPolyData* outline)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkAppendPolyData> all;
+  all->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   for (const DrawnMesh& mesh : meshes)
   {
-    const vtkIdType first = points->GetNumberOfPoints();
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      double place[3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const std::vector<double>& nodes = mesh.Nodes[axis];
-        place[axis] = (corner >> axis) & 1 ? nodes.back() : nodes.front();
-      }
-      points->InsertNextPoint(place);
-    }
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        if (((corner >> axis) & 1) == 0)
-        {
-          const vtkIdType line[] = {first + corner, first + corner + (1 << axis)};
-          lines->InsertNextCell(2, line);
-        }
-      }
-    }
+    vtkNew<vtkOutlineSource> box;
+    box->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+    box->SetBounds(mesh.Nodes[0].front(), mesh.Nodes[0].back(), mesh.Nodes[1].front(),
+      mesh.Nodes[1].back(), mesh.Nodes[2].front(), mesh.Nodes[2].back());
+    all->AddInputConnection(box->GetOutputPort());
   }
-  outline->SetPoints(points);
-  outline->SetLines(lines);
+  if (!meshes.empty())
+  {
+    all->Update();
+  }
+  outline->ShallowCopy(all->GetOutput());
 }
 
 // Opacity 1 - exp(-K length) of smoke with K in a range. VTK makes a table of as many entries over

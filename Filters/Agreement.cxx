@@ -4,24 +4,10 @@
 #include "Identity.h"
 #include "Ranks.h"
 
-#include <vtkDataObject.h>
-#include <vtkInformationVector.h>
-
 #include <functional>
 
 namespace smokevis
 {
-
-namespace
-{
-
-/// What two sums have in common with no other two, in their order.
-std::uint64_t Joined(std::uint64_t first, std::uint64_t second)
-{
-  return first ^ (second + 0x9e3779b97f4a7c15ULL + (first << 6U) + (first >> 2U));
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 void Agreement::Add(const char* name, vtkDataObject* data)
@@ -37,12 +23,7 @@ void Agreement::Add(const char* name, vtkInformationVector* port)
 {
   if (this->Ranks_.Count() > 1)
   {
-    std::uint64_t sum = port->GetNumberOfInformationObjects();
-    for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
-    {
-      sum = Joined(sum, Fingerprint(vtkDataObject::GetData(port, i)));
-    }
-    this->AddSum(name, sum);
+    this->AddSum(name, Fingerprint(port));
   }
 }
 

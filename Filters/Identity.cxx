@@ -10,6 +10,7 @@
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
@@ -222,6 +223,17 @@ std::uint64_t Fingerprint(vtkDataObject* data)
   if (data)
   {
     AddTo(sum, data);
+  }
+  return sum.Value();
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t Fingerprint(vtkInformationVector* port)
+{
+  Sum sum;
+  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
+  {
+    sum.AddValue(Fingerprint(vtkDataObject::GetData(port, i)));
   }
   return sum.Value();
 }

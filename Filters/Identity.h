@@ -6,6 +6,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkInformationVector;
 
 namespace smokevis
 {
@@ -19,5 +20,7 @@ Identity IdentityOf(vtkDataObject* data);
 /// A checksum of all that is in a data object, for data that were read or made again: structure,
 /// points, cells, arrays with their names, field data and time.
 std::uint64_t Fingerprint(vtkDataObject* data);
+/// Of all data that are connected to a port, in their order.
+std::uint64_t Fingerprint(vtkInformationVector* port);
 
 } // namespace smokevis

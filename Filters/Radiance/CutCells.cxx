@@ -1,5 +1,6 @@
 #include "CutCells.h"
 
+#include "CellWalls.h"
 #include "PolygonClip.h"
 #include "Scene.h"
 
@@ -16,8 +17,6 @@ namespace smokevis
 namespace
 {
 
-/// Walls closer to a cell's faces than this share of its edges lie in them.
-constexpr double FaceShare = 1e-3;
 /// What lies within this share of a cell's shortest edge of a plane lies in it: curved walls are
 /// cut by few planes.
 constexpr double FlatShare = 0.01;
@@ -29,130 +28,10 @@ constexpr int MostPlanes = 6;
 constexpr std::size_t MostCandidates = 16;
 /// Light passes between two pieces of a cell where more than half of so many ways are clear.
 constexpr int Ways = 6;
-/// Triangles are halved until their edges are no longer than so many cells.
-constexpr double LongestEdge = 8.0;
 /// Samples of a smaller share of a part are left out.
 constexpr double LeastShare = 0.005;
 
 using Polygon = std::vector<Vec3>;
-using Triangle = std::array<Vec3, 3>;
-
-double AreaOf(const Polygon& polygon)
-{
-  Vec3 sum(0.0);
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  }
-  return 0.5 * glm::length(sum);
-}
-
-/// The part of a polygon in a box.
-Polygon Inside(const Polygon& polygon, const Box& box)
-{
-  Polygon kept = polygon;
-  Polygon next;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    KeepBetween(
-      kept, [axis](const Vec3& point) { return point[axis]; }, box.Lower[axis], box.Upper[axis],
-      next);
-    std::swap(kept, next);
-  }
-  return kept;
-}
-
-/// A triangle and a cell that it cuts.
-struct Meeting
-{
-  std::int64_t Cell;
-  std::size_t Triangle;
-
-  auto operator<=>(const Meeting&) const = default;
-};
-
-/// Walls and the cells that they cut.
-class WallFinder
-{
-public:
-  explicit WallFinder(const Scene& scene) : Smoke_(scene.Smoke())
-  {
-    scene.ForEachTriangle(
-      [this](std::size_t, const Triangle& corners)
-      {
-        const std::size_t before = this->Meetings.size();
-        this->Find(corners);
-        if (this->Meetings.size() > before)
-        {
-          this->Walls.push_back(corners);
-        }
-      });
-    std::sort(this->Meetings.begin(), this->Meetings.end());
-    this->Meetings.erase(
-      std::unique(this->Meetings.begin(), this->Meetings.end()), this->Meetings.end());
-  }
-
-  /// Of cells in the order of their numbers.
-  std::vector<Meeting> Meetings;
-  std::vector<Triangle> Walls;
-
-private:
-  /// Long triangles are halved, so that the boxes around them hold few cells beside theirs.
-  void Find(const Triangle& corners)
-  {
-    const Vec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
-    const Vec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    if (glm::any(glm::greaterThan(low, this->Smoke_.Upper())) ||
-        glm::any(glm::lessThan(high, this->Smoke_.Lower())))
-    {
-      return;
-    }
-    int longest = 0;
-    double length = 0.0;
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const double own = glm::distance(corners[edge], corners[(edge + 1) % 3]);
-      longest = own > length ? edge : longest;
-      length = std::max(length, own);
-    }
-    // In a plane across an axis there is nothing beside the triangle.
-    const Vec3 size = high - low;
-    const bool askew = std::min({size.x, size.y, size.z}) > 0.0;
-    if (askew && length > LongestEdge * this->Smoke_.LargestEdge())
-    {
-      const Vec3& from = corners[longest];
-      const Vec3& to = corners[(longest + 1) % 3];
-      const Vec3& other = corners[(longest + 2) % 3];
-      const Vec3 middle = 0.5 * (from + to);
-      this->Find({from, middle, other});
-      this->Find({middle, to, other});
-      return;
-    }
-    const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    this->Smoke_.ForCellsIn(low, high,
-      [&](std::int64_t cell)
-      {
-        if (this->Smoke_.Extinction(cell) == 0.0F)
-        {
-          return;
-        }
-        const Vec3 centre = this->Smoke_.CellCentre(cell);
-        const Vec3 half = (0.5 - FaceShare) * this->Smoke_.CellSize(cell);
-        if (std::abs(glm::dot(normal, corners[0] - centre)) > glm::dot(glm::abs(normal), half))
-        {
-          return;
-        }
-        const Polygon kept =
-          Inside({corners[0] - centre, corners[1] - centre, corners[2] - centre}, Box{-half, half});
-        if (kept.size() >= 3)
-        {
-          this->Meetings.push_back({cell, this->Walls.size()});
-        }
-      });
-  }
-
-  const Medium& Smoke_;
-};
 
 /// Cuts one cell. Places count from the smoke's lower corner.
 class CellCutter
@@ -169,12 +48,12 @@ public:
     this->Cut_.Cell = cell;
   }
 
-  void AddWall(const Triangle& corners)
+  void AddWall(const std::array<Vec3, 3>& corners)
   {
     const Vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const Polygon polygon = Inside(
+    const Polygon polygon = InBox(
       {corners[0] - this->Base_, corners[1] - this->Base_, corners[2] - this->Base_}, this->Box_);
-    const double area = AreaOf(polygon);
+    const double area = 0.5 * glm::length(AreaVector(polygon));
     if (area > this->LeastArea_ && glm::length(across) > 0.0)
     {
       const Vec3 normal = glm::normalize(across);
@@ -294,7 +173,7 @@ private:
       Wall part{wall.Where, {}, 0.0};
       KeepSide(
         wall.Corners, [&](const Vec3& point) { return sign * plane.Height(point); }, part.Corners);
-      part.Area = AreaOf(part.Corners);
+      part.Area = 0.5 * glm::length(AreaVector(part.Corners));
       if (part.Area > this->LeastArea_)
       {
         kept.push_back(std::move(part));
@@ -467,7 +346,7 @@ private:
 CellParts FindCellParts(const Scene& scene)
 {
   const Medium& smoke = scene.Smoke();
-  const WallFinder found(scene);
+  const CellWalls found(scene);
   // Where the meetings of each cell begin.
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < found.Meetings.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "PlatePattern.h"
+#include "PolygonClip.h"
 
 #include <algorithm>
 #include <array>
@@ -20,17 +21,6 @@ namespace
 /// A light of more leaves is replaced by a lattice with so many rectangles along its longer side.
 constexpr std::size_t MostLeaves = 20;
 constexpr double LatticeAcross = 4.0;
-
-/// Newell's normal of a polygon; its length is twice the area.
-Vec3 AreaVector(const std::vector<Vec3>& vertices)
-{
-  Vec3 sum(0.0);
-  for (std::size_t i = 2; i < vertices.size(); ++i)
-  {
-    sum += glm::cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
-  }
-  return sum;
-}
 
 void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 {

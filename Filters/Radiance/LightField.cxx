@@ -92,6 +92,8 @@ private:
   tbb::task_arena Arena_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   LightField Field_;
+  /// Lines of the present band that were traced for each batch.
+  std::size_t LinesABatch_ = 0;
   std::shared_ptr<const NearLights> Near_;
   /// Made when a band needs it, once the direct fluence is known.
   std::unique_ptr<DirectField> Inside_;
@@ -113,6 +115,7 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
         });
     });
   this->CheckStop();
+  this->LinesABatch_ += thin ? sweep.ThinLines() : sweep.Lines();
   if (meets)
   {
     this->ShareSums(batches);
@@ -256,6 +259,7 @@ void Solver::SolveMultiple(int band)
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
   const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
+  this->LinesABatch_ = 0;
   int done = this->Settle(sweep, band, probes, batches, key);
   const int settling = done - batches.front().Counted;
   double error = probes.RelativeError(batches);
@@ -305,16 +309,19 @@ void Solver::SolveMultiple(int band)
         PlateGather(this->Scene_, this->Options_, this->Inside(), this->Field_, band)
           .Run(this->Team_, this->Progress_);
     });
-  this->Say(name + "settling sweeps", settling, "orders of scattering had to build up");
+  this->Say(name + "settling sweeps", settling,
+    "orders of scattering had to build up, first with a quarter of the lines");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
     "each cell is crossed about 1.5 times");
+  this->Say(name + "lines of a batch in all", static_cast<double>(this->LinesABatch_),
+    "of whole sweeps and of thin ones");
   for (int rank = 0; rank < this->Team_.Size() && this->Team_.Size() > 1; ++rank)
   {
     const std::size_t own = this->Team_.OwnCount(batches.size(), rank);
     this->Say(name + "lines of process " + std::to_string(rank),
-      static_cast<double>(sweep.Lines() * own * done),
+      static_cast<double>(this->LinesABatch_ * own),
       "it sweeps " + std::to_string(own) + " of " + std::to_string(Batches) + " batches");
   }
   if (plates > 0)

@@ -62,6 +62,8 @@ public:
 
   /// Lines that cross each cell about 1.5 times.
   std::size_t Lines() const { return this->Lines_.Count(); }
+  /// Those of a thin sweep.
+  std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
   /// Share of the lines that a thin sweep has.
   static constexpr double ThinShare = 0.25;

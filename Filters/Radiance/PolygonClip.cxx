@@ -1,9 +1,25 @@
 #include "PolygonClip.h"
 
 #include <cmath>
+#include <utility>
 
 namespace smokevis
 {
+
+//------------------------------------------------------------------------------
+std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box)
+{
+  std::vector<Vec3> kept = polygon;
+  std::vector<Vec3> next;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    KeepBetween(
+      kept, [axis](const Vec3& point) { return point[axis]; }, box.Lower[axis], box.Upper[axis],
+      next);
+    std::swap(kept, next);
+  }
+  return kept;
+}
 
 //------------------------------------------------------------------------------
 double AreaOf(const FlatPolygon& polygon)
@@ -16,6 +32,17 @@ double AreaOf(const FlatPolygon& polygon)
     sum += a.x * b.y - a.y * b.x;
   }
   return 0.5 * std::abs(sum);
+}
+
+//------------------------------------------------------------------------------
+Vec3 AreaVector(const std::vector<Vec3>& polygon)
+{
+  Vec3 sum(0.0);
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  }
+  return sum;
 }
 
 //------------------------------------------------------------------------------

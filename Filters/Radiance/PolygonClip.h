@@ -1,6 +1,7 @@
 // Cuts convex polygons by lines and planes, and measures what is left.
 #pragma once
 
+#include "Box.h"
 #include "Types.h"
 
 #include <vector>
@@ -54,7 +55,12 @@ inline void KeepStrip(
     polygon, [axis](const glm::dvec2& point) { return point[axis]; }, low, high, kept);
 }
 
+/// The part of a convex polygon in a box.
+std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box);
+
 double AreaOf(const FlatPolygon& polygon);
+/// Newell's normal of a plane polygon in space; its length is twice the area.
+Vec3 AreaVector(const std::vector<Vec3>& polygon);
 /// Mean of the corners.
 glm::dvec2 MiddleOf(const FlatPolygon& polygon);
 

@@ -4,11 +4,7 @@
 set -euo pipefail
 mpiexec=$1 pvbatch=$2 plugin=$3 data=$4 work=$5
 script=$(dirname "$0")/filters_ranks.py
-programs=$(dirname "$pvbatch")
-options=(--oversubscribe)
-if [ "$(id -u)" -eq 0 ]; then
-  options+=(--allow-run-as-root)
-fi
+. "$(dirname "$0")/processes.sh"
 for processes in 1 2 3; do
   timeout 150 "$mpiexec" "${options[@]}" -np "$processes" "$pvbatch" --symmetric \
     --force-offscreen-rendering "$script" "$plugin" "$data" "$work/ranks$processes.txt"
@@ -16,13 +12,7 @@ for processes in 1 2 3; do
 done
 
 port=$((20000 + $$ % 20000))
-timeout 200 "$mpiexec" "${options[@]}" -np 2 "$programs/pvserver" --force-offscreen-rendering \
-  --server-port="$port" >"$work/server.txt" 2>&1 &
-server=$!
-for _ in $(seq 100); do
-  grep -q "Accepting connection" "$work/server.txt" && break
-  sleep 0.2
-done
+start_server "$port" "$work/server.txt"
 timeout 150 "$programs/pvpython" --force-offscreen-rendering "$script" "$plugin" "$data" \
   "$work/server_arrays.txt" "$port"
 wait "$server" || true

@@ -3,10 +3,7 @@
 # Usage: reader_pieces.sh MPIEXEC PVBATCH PLUGIN DATA_FOLDER WORK_FOLDER
 set -euo pipefail
 mpiexec=$1 pvbatch=$2 plugin=$3 data=$4 work=$5
-options=(--oversubscribe)
-if [ "$(id -u)" -eq 0 ]; then
-  options+=(--allow-run-as-root)
-fi
+. "$(dirname "$0")/processes.sh"
 for processes in 1 2 3; do
   timeout 180 "$mpiexec" "${options[@]}" -np "$processes" "$pvbatch" --symmetric \
     --force-offscreen-rendering "$(dirname "$0")/reader_pieces.py" "$plugin" "$data" \

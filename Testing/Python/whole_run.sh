@@ -5,10 +5,8 @@ set -euo pipefail
 mpiexec=$1 pvbatch=$2 plugin=$3 script=$4/Scripts/whole_run.py
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-options=(--oversubscribe --bind-to none)
-if [ "$(id -u)" -eq 0 ]; then
-  options+=(--allow-run-as-root)
-fi
+. "$(dirname "$0")/processes.sh"
+options+=(--bind-to none)
 run()
 {
   timeout 250 "$mpiexec" "${options[@]}" -np "$1" "$pvbatch" --force-offscreen-rendering "$script" "$plugin" \

@@ -161,9 +161,12 @@ TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
   const LightField alone = SolveLightField(scene, options, progress);
   ASSERT_GT(Count(alone, "band 0: rays gathered by signs"), 0.0);
   ASSERT_GT(Count(alone, "band 2: counted sweeps"), 0.0);
-  const double lines =
-    Batches * Count(alone, "band 0: lines a sweep and batch") *
-    (Count(alone, "band 0: counted sweeps") + Count(alone, "band 0: settling sweeps"));
+  const double lines = Batches * Count(alone, "band 0: lines of a batch in all");
+  const double sweeps =
+    Count(alone, "band 0: counted sweeps") + Count(alone, "band 0: settling sweeps");
+  EXPECT_LT(lines, Batches * Count(alone, "band 0: lines a sweep and batch") * sweeps);
+  EXPECT_GT(lines, Batches * Count(alone, "band 0: lines a sweep and batch") *
+                     Count(alone, "band 0: counted sweeps"));
   // With more processes than batches some of them have none.
   for (const int size : {1, 2, 3, 17})
   {
