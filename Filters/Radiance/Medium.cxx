@@ -97,7 +97,7 @@ int Medium::Grid::Index(int axis, double coordinate) const
   return index;
 }
 
-Medium::Medium(std::vector<SmokeGrid> grids)
+Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
 {
   this->Lower_ = Vec3(Infinity);
   this->Upper_ = Vec3(-Infinity);
@@ -136,6 +136,8 @@ Medium::Medium(std::vector<SmokeGrid> grids)
       }
     }
     grid.Nodes = std::move(source.Nodes);
+    grid.Clear = ClearBricks(grid.Size, source.Extinction.data());
+    grid.Leaps = leaps && grid.Clear.Worthwhile();
     this->Lower_ = glm::min(this->Lower_, grid.Bounds.Lower);
     this->Upper_ = glm::max(this->Upper_, grid.Bounds.Upper);
     this->Extinction_.insert(
@@ -281,6 +283,12 @@ std::vector<Medium::Block> Medium::Blocks(int edge) const
     }
   }
   return blocks;
+}
+
+std::int64_t Medium::LeaptCells() const
+{
+  return std::accumulate(this->Grids_.begin(), this->Grids_.end(), std::int64_t{0},
+    [](std::int64_t sum, const Grid& grid) { return sum + (grid.Leaps ? grid.Clear.Cells() : 0); });
 }
 
 std::int64_t Medium::Locate(const Vec3& point) const
