@@ -8,15 +8,17 @@ namespace smokevis
 namespace
 {
 
-/// Share of a grid's cells from which on leaping over them saves more than looking for them costs.
+/// Share of a grid's cells outside the box, and of the box's cells in clear bricks, from which on
+/// leaping over them saves more than looking for them costs.
 constexpr double LeastShare = 1.0 / 32.0;
+constexpr double LeastInBox = 1.0 / 4.0;
 /// Longest edge of a cube of bricks.
 constexpr int LongestReach = 1000;
 
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
-ClearBricks::ClearBricks(const std::array<int, 3>& size, const float* extinction)
+ClearBricks::ClearBricks(const std::array<int, 3>& size, const CellContents& contents)
 {
   std::int64_t bricks = 1;
   for (int axis = 0; axis < 3; ++axis)
@@ -26,14 +28,17 @@ ClearBricks::ClearBricks(const std::array<int, 3>& size, const float* extinction
     bricks *= this->Bricks_[axis];
   }
   std::vector<bool> smoky(bricks, false);
+  std::int64_t number = 0;
   for (int z = 0; z < size[2]; ++z)
   {
     for (int y = 0; y < size[1]; ++y)
     {
       const std::int64_t row = this->Brick({0, y, z});
-      for (int x = 0; x < size[0]; ++x)
+      for (int x = 0; x < size[0]; ++x, ++number)
       {
-        if (*extinction++ > 0.0F)
+        const float extinction = contents.Extinction[number];
+        if (extinction > contents.Trace ||
+            (extinction > 0.0F && contents.Emitted && contents.Emitted[number] > 0.0F))
         {
           smoky[row + (x >> Shift)] = true;
           const std::array<int, 3> cell = {x, y, z};
@@ -46,13 +51,17 @@ ClearBricks::ClearBricks(const std::array<int, 3>& size, const float* extinction
       }
     }
   }
-  // Of a brick with smoke, what lies outside the box is left out all the same.
-  std::int64_t visited = 0;
   const auto edge = [this](int axis, int brick)
   {
     return std::max(0, std::min(this->Last_[axis], (brick << Shift) + Mask) -
                          std::max(this->First_[axis], brick << Shift) + 1);
   };
+  std::int64_t box = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box *= std::max(0, this->Last_[axis] - this->First_[axis] + 1);
+  }
+  std::int64_t clear = box;
   auto brick = smoky.begin();
   for (int z = 0; z < this->Bricks_[2]; ++z)
   {
@@ -60,18 +69,20 @@ ClearBricks::ClearBricks(const std::array<int, 3>& size, const float* extinction
     {
       for (int x = 0; x < this->Bricks_[0]; ++x)
       {
-        visited += *brick++ ? static_cast<std::int64_t>(edge(0, x)) * edge(1, y) * edge(2, z) : 0;
+        clear -= *brick++ ? static_cast<std::int64_t>(edge(0, x)) * edge(1, y) * edge(2, z) : 0;
       }
     }
   }
+  const auto reaches = [](std::int64_t part, double share, std::int64_t all)
+  { return part > 0 && static_cast<double>(part) >= share * static_cast<double>(all); };
   const std::int64_t all = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
-  this->Cells_ = all - visited;
-  this->Worthwhile_ =
-    this->Cells_ > 0 && static_cast<double>(this->Cells_) >= LeastShare * static_cast<double>(all);
-  if (this->Worthwhile_)
+  this->Cells_ = all - box;
+  if (reaches(clear, LeastInBox, box))
   {
+    this->Cells_ += clear;
     this->FindReach(smoky);
   }
+  this->Worthwhile_ = reaches(this->Cells_, LeastShare, all);
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -8,6 +8,17 @@
 namespace smokevis
 {
 
+/// What the cells of a grid hold.
+struct CellContents
+{
+  /// Extinction coefficient of each cell [1/m], x fastest, and the one up to which the air counts
+  /// as clear.
+  const float* Extinction = nullptr;
+  float Trace = 0.0F;
+  /// Luminance of what emits [cd/m2], which never counts as clear; null: nothing does.
+  const float* Emitted = nullptr;
+};
+
 /// The box of all cells of a grid that hold smoke, and the bricks of cells that hold none, with how
 /// far on the next ones hold none either.
 class ClearBricks
@@ -19,10 +30,9 @@ public:
 
   ClearBricks() = default;
   /// @param size number of cells along each axis
-  /// @param extinction of each cell, x fastest
-  ClearBricks(const std::array<int, 3>& size, const float* extinction);
+  ClearBricks(const std::array<int, 3>& size, const CellContents& contents);
 
-  /// Cells that rays need not stop in: those outside the box and those of clear bricks.
+  /// Cells that rays need not stop in: those outside the box and, with bricks, those of clear ones.
   std::int64_t Cells() const { return this->Cells_; }
   /// Whether they are so many that looking for them pays.
   bool Worthwhile() const { return this->Worthwhile_; }
@@ -30,6 +40,8 @@ public:
   /// first where there is none.
   const std::array<int, 3>& First() const { return this->First_; }
   const std::array<int, 3>& Last() const { return this->Last_; }
+  /// Whether clear bricks within the box are many enough to look for.
+  bool HasBricks() const { return !this->Reach_[0].empty(); }
   /// Number of the brick that a cell lies in.
   std::int64_t Brick(const std::array<int, 3>& cell) const
   {

@@ -16,6 +16,10 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Share of a cell's edge behind its face at which its neighbour is sought.
 constexpr double JustBehind = 1e-3;
+/// What simulations leave in clear air counts as none where it adds less than this optical depth to
+/// any line through all smoke, and its extinction is below this share of the largest.
+constexpr double TraceDepth = 1e-10;
+constexpr double TraceShare = 1e-6;
 
 void CheckGrid(const SmokeGrid& grid)
 {
@@ -136,8 +140,6 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
       }
     }
     grid.Nodes = std::move(source.Nodes);
-    grid.Clear = ClearBricks(grid.Size, source.Extinction.data());
-    grid.Leaps = leaps && grid.Clear.Worthwhile();
     this->Lower_ = glm::min(this->Lower_, grid.Bounds.Lower);
     this->Upper_ = glm::max(this->Upper_, grid.Bounds.Upper);
     this->Extinction_.insert(
@@ -157,6 +159,11 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
   }
   this->MaximumExtinction_ = *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
 
+  if (leaps)
+  {
+    this->FindClearAir();
+  }
+
   const float least = *std::min_element(this->Extinction_.begin(), this->Extinction_.end());
   this->Even_ = this->Grids_.size() == 1 && least == this->MaximumExtinction_;
 
@@ -172,6 +179,20 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
       const Vec3 upper = glm::min(this->Grids_[a].Bounds.Upper, this->Grids_[b].Bounds.Upper);
       this->Overlap_ = glm::all(glm::lessThan(lower, upper));
     }
+  }
+}
+
+void Medium::FindClearAir()
+{
+  const double longest = glm::length(this->Upper_ - this->Lower_);
+  const auto trace = static_cast<float>(
+    std::min(TraceDepth / longest, TraceShare * static_cast<double>(this->MaximumExtinction_)));
+  for (Grid& grid : this->Grids_)
+  {
+    grid.Clear = ClearBricks(
+      grid.Size, {this->Extinction_.data() + grid.FirstCell, trace,
+                   this->Emits() ? this->EmittedLuminance_.data() + grid.FirstCell : nullptr});
+    grid.Leaps = grid.Clear.Worthwhile();
   }
 }
 

@@ -47,8 +47,7 @@ class Medium
 public:
   Medium() = default;
   /// Checks the grids; throws Error for bad nodes, sizes, NaN or negative extinction.
-  /// @param leaps whether rays that only meet smoke leap over clear bricks of cells; what they meet
-  /// is the same
+  /// @param leaps whether rays that only meet smoke leap over clear bricks of cells
   explicit Medium(std::vector<SmokeGrid> grids, bool leaps = true);
 
   /// Parts the cells that walls cut.
@@ -136,10 +135,11 @@ public:
   void Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
 
-  /// The same without the pieces in clear air, most of which are leapt over.
+  /// The same without the pieces in clear air, most of which are leapt over, as OpticalDepth does.
+  /// Air counts as clear where the smoke in it adds up to an optical depth of 1e-10 at most.
   void WalkSmoke(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
-  /// Cells that WalkSmoke and OpticalDepth leap over.
+  /// Cells that they leap over.
   std::int64_t LeaptCells() const;
 
   /// Whether a point lies in smoke that is the same all over the one grid there is. Between two
@@ -189,6 +189,7 @@ private:
   template <Pieces Wanted>
   void ListPieces(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
+  void FindClearAir();
   const Grid& GridOf(std::int64_t cell, std::array<int, 3>& index) const;
   /// The cell of a grid that holds a point, or -1.
   std::int64_t LocateInGrids(const Vec3& point) const;

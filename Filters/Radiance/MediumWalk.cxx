@@ -250,6 +250,11 @@ template <class Visit> void Medium::GridRay::Leap(Visit&& visit)
     return;
   }
   const ClearBricks& clear = this->Grid_.Clear;
+  if (!clear.HasBricks())
+  {
+    this->Step(visit);
+    return;
+  }
   const std::int16_t* const reach =
     clear.Reach(this->Axes_[0].Step < 0, this->Axes_[1].Step < 0, this->Axes_[2].Step < 0);
   for (;;)

@@ -172,12 +172,12 @@ Values Rays(const View& view, bool luminance)
 
 void SkipClearAir(ResultTable& table, const Settings& settings)
 {
-  // Smoke under the ceiling, on cells of 0.2 m, and what FDS computed.
+  // Smoke under the ceiling, on cells of 0.3 m, and a fire that has just begun.
   SceneDescription layer = Corridor(0.3, 4, 0.5, 0.5);
   layer.Surfaces = {};
   scenes::AddRoom(layer.Surfaces, Vec3(0.0), {60, 20, 6}, 2.0, 0.5);
-  layer.Grids = {scenes::UniformSmoke(Vec3(0.0), {60, 20, 6}, {300, 100, 30}, 0.3)};
-  std::fill_n(layer.Grids[0].Extinction.begin(), 300 * 100 * 20, 0.0F);
+  layer.Grids = {scenes::UniformSmoke(Vec3(0.0), {60, 20, 6}, {200, 66, 24}, 0.3)};
+  std::fill_n(layer.Grids[0].Extinction.begin(), 200 * 66 * 16, 0.0F);
   const auto compare = [&](const std::string& name, SceneDescription description)
   {
     std::array<std::unique_ptr<const Scene>, 2> scenes;
@@ -204,7 +204,7 @@ void SkipClearAir(ResultTable& table, const Settings& settings)
       [&](bool skips) { return Rays(*views[skips ? 0 : 1], true); });
   };
   compare("layer of smoke", layer);
-  compare("hall at " + Number(settings.Time) + " s", Hall(settings.Time));
+  compare("hall at 60 s", Hall(60.0));
 }
 
 void SkipSteps(ResultTable& table)

@@ -157,6 +157,27 @@ TEST(ClearBricks, SmokeHereAndThere)
   }
 }
 
+// What a simulation leaves in clear air counts as none, unless it emits or is all there is.
+TEST(ClearBricks, TracesOfSmoke)
+{
+  const auto layer = [](int x, int, int z) { return z < 16 ? 1e-13 * (x % 3) : 1.0; };
+  SmokeGrid grid = Grid(Vec3(0.0), Vec3(4, 3, 2.4), {40, 30, 24}, true, layer);
+  const Medium leaping({grid});
+  const Medium stepping({grid}, false);
+  EXPECT_EQ(leaping.LeaptCells(), 40 * 30 * 16);
+  const Vec3 direction = glm::normalize(Vec3(1.0, 0.3, 0.2));
+  const Vec3 origin(0.1, 0.2, 0.3);
+  EXPECT_EQ(leaping.OpticalDepth(origin, direction, 0.0, 3.0), 0.0);
+  EXPECT_GT(stepping.OpticalDepth(origin, direction, 0.0, 3.0), 0.0);
+  EXPECT_NEAR(leaping.OpticalDepth(origin, direction, 0.0, 9.0),
+    stepping.OpticalDepth(origin, direction, 0.0, 9.0), 1e-10);
+  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
+  grid.EmittedLuminance[1] = 5.0F;
+  EXPECT_EQ(Medium({grid}).LeaptCells(), 40 * 30 * 16 - 512);
+  const auto thin = [](int, int, int z) { return z < 16 ? 1e-15 : 1e-14; };
+  EXPECT_EQ(Medium({Grid(Vec3(0.0), Vec3(4, 3, 2.4), {40, 30, 24}, true, thin)}).LeaptCells(), 0);
+}
+
 TEST(ClearBricks, OverlappingAndClearGrids)
 {
   const auto ball = [](int x, int y, int z) { return Ball(x, y, z, 12.0, 10.0, 10.0, 6.0); };
