@@ -7,12 +7,14 @@
 #include "PlateGather.h"
 #include "PowerBalance.h"
 #include "Sampler.h"
+#include "ScatterBound.h"
 #include "Settling.h"
 #include "Team.h"
 #include "VeilProbes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -36,6 +38,8 @@ constexpr int MostSweeps = 768;
 /// Share of the tolerance that the standard error of the veil is brought down to, and share that
 /// the drift from window to window is.
 constexpr double ErrorShare = 0.5;
+/// Share of the tolerance that light may be of which a bound shows that it is no more.
+constexpr double NegligibleShare = 0.25;
 constexpr double DriftShare = 0.7;
 /// Share of that which noise may hide where next to no light is sent on any more that could drift:
 /// the mean over two windows has half the noise of their difference.
@@ -63,6 +67,8 @@ public:
 
 private:
   void SolveMultiple(int band);
+  /// Bound of the share of the direct light along lines of sight that all other light is.
+  double LargestMultipleShare(int band) const;
   int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
     std::vector<BatchState>& batches, std::uint64_t key);
   /// One sweep of this process's batches.
@@ -225,6 +231,25 @@ const DirectField& Solver::Inside()
   return *this->Inside_;
 }
 
+double Solver::LargestMultipleShare(int band) const
+{
+  const auto bound = ScatterBound::Of(this->Scene_, band);
+  if (!bound)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  // Views may look elsewhere than to signs, into places where no sign is seen from.
+  double largest = 0.0;
+  for (const VeilProbes::Lines lines : {VeilProbes::Lines::ToSigns, VeilProbes::Lines::Anywhere})
+  {
+    const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed, lines);
+    largest =
+      std::max(largest, probes.LargestShare([&](std::int64_t cell) { return bound->Fluence(cell); },
+                          bound->Illuminance()));
+  }
+  return largest;
+}
+
 void Solver::SolveMultiple(int band)
 {
   const Medium& smoke = this->Scene_.Smoke();
@@ -247,6 +272,17 @@ void Solver::SolveMultiple(int band)
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
       "albedo or extinction is 0 and no surface reflects");
     return;
+  }
+  if (this->Options_.Skips)
+  {
+    const double share = this->LargestMultipleShare(band);
+    if (share <= NegligibleShare * this->Options_.Tolerance)
+    {
+      this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
+        "a bound shows that it adds at most " + std::to_string(100.0 * share) +
+          " % to the light along any line of sight");
+      return;
+    }
   }
   const LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band);
   if (!(sweep.FirstSource() > 0.0))

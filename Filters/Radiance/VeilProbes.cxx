@@ -34,7 +34,8 @@ Vec3 SphereDirection(double first, double second)
 
 } // namespace
 
-VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed)
+VeilProbes::VeilProbes(
+  const Scene& scene, const LightField& field, int band, std::uint64_t seed, Lines lines)
 {
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -45,12 +46,13 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
     brightest = std::max(brightest, cell.Luminance[band]);
   }
   this->Floor_ = FaintestShare * brightest;
-  this->MeanShare_ = signs.empty() ? DarkShare : 0.0;
+  const bool anywhere = signs.empty() || lines == Lines::Anywhere;
+  this->MeanShare_ = anywhere ? DarkShare : 0.0;
   const double size = glm::length(scene.Upper() - scene.Lower());
   for (int i = 0; i < MostProbes; ++i)
   {
     const auto random = points.Point(i);
-    if (signs.empty())
+    if (anywhere)
     {
       const Vec3 eye =
         scene.Lower() + Vec3(random[0], random[1], Mix(i + seed) / 1.8446744073709552e19) *
@@ -159,6 +161,25 @@ double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
     }
   }
   return used > 0 ? std::sqrt(squares / used) : 0.0;
+}
+
+double VeilProbes::LargestShare(
+  const std::function<double(std::int64_t)>& fluence, double illuminance) const
+{
+  double largest = 0.0;
+  for (const Probe& probe : this->Probes_)
+  {
+    double later = probe.SurfaceWeight * illuminance;
+    for (const Piece& piece : probe.Pieces)
+    {
+      later += piece.Weight * fluence(piece.Cell);
+    }
+    if (later > 0.0)
+    {
+      largest = std::max(largest, later / probe.Direct);
+    }
+  }
+  return largest;
 }
 
 } // namespace smokevis

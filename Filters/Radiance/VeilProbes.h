@@ -3,6 +3,8 @@
 
 #include "LineSweep.h"
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace smokevis
@@ -12,11 +14,25 @@ namespace smokevis
 class VeilProbes
 {
 public:
-  VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed);
+  /// Where the lines run.
+  enum class Lines
+  {
+    /// To the signs; without signs anywhere.
+    ToSigns,
+    Anywhere
+  };
+  VeilProbes(const Scene& scene, const LightField& field, int band, std::uint64_t seed,
+    Lines lines = Lines::ToSigns);
 
   /// Root mean square, over the probes, of the standard error of the light along a probe over that
   /// light (or over a floor where there is next to none), from the running means of the batches.
   double RelativeError(const std::vector<BatchState>& batches) const;
+
+  /// The largest ratio, over the probes, of what is not direct to the direct light along a probe; no
+  /// floor, since a place in the dark beside a bright one may be all that is seen.
+  /// @param fluence a cell's, of what is not direct [lx]
+  /// @param illuminance any surface's, of what is not direct [lx]
+  double LargestShare(const std::function<double(std::int64_t)>& fluence, double illuminance) const;
 
 private:
   struct Piece

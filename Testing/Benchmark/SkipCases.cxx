@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace smokevis::benchmark
 {
@@ -138,6 +139,16 @@ void SkipLight(ResultTable& table)
   field("ways told and negligible lights", "corridor of 60 m with 15 lamps", lamps, Direct);
   std::fill(lamps.Grids[0].Extinction.begin(), lamps.Grids[0].Extinction.end(), 1.0F);
   field("ways told and negligible lights", "the same with even smoke", lamps, Direct);
+  // Of multiply scattered light only the sum of all fluence is compared.
+  SceneDescription thin = Corridor(1e-4, 15, 0.5, 0.0);
+  field("multiple scattering below a bound", "corridor of 60 m with black walls and thin smoke",
+    thin,
+    [](const Scene&, const LightField& solved)
+    {
+      const Values direct(solved.DirectFluence.begin(), solved.DirectFluence.end());
+      return Values{
+        std::accumulate(direct.begin(), direct.end(), 0.0) + Multiple(solved, 0).front()};
+    });
   SceneDescription grey = Corridor(0.3, 4, 0.5, 0.5);
   grey.Bands = 3;
   for (EmitterCell& cell : grey.Emitters)
