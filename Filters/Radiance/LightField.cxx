@@ -280,7 +280,7 @@ void Solver::SolveMultiple(int band)
     {
       this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
         "a bound shows that it adds at most " + std::to_string(100.0 * share) +
-          " % to the light along any line of sight");
+          " % to the direct light along lines of sight");
       return;
     }
   }
