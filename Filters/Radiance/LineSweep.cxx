@@ -16,8 +16,13 @@ namespace smokevis
 namespace
 {
 
+/// How often a sweep's lines cross each cell and meet each patch, and how many there are at least.
+/// Above a tolerance fewer do: a few sweeps there must be for the light to settle, which would
+/// bring less noise than is asked for.
 constexpr double CrossingsPerSweep = 1.5;
-constexpr std::size_t FewestLines = 512;
+constexpr double FewestLines = 512.0;
+constexpr double CoarseTolerance = 0.03;
+constexpr double FewestShare = 0.25;
 constexpr double MostLinesForPatches = 20000.0;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
@@ -77,16 +82,17 @@ std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
   return inside;
 }
 
-GlobalLines LinesFor(const Scene& scene, int band)
+GlobalLines LinesFor(const Scene& scene, int band, double tolerance)
 {
+  const double share = std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);
   const Medium& smoke = scene.Smoke();
   double boundary = 0.0;
   for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
   {
     boundary += BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell)));
   }
-  const auto count = [](double lines)
-  { return std::max(FewestLines, static_cast<std::size_t>(std::ceil(lines))); };
+  const auto count = [share](double lines)
+  { return static_cast<std::size_t>(std::ceil(share * std::max(FewestLines, lines))); };
   const Box box = SceneBox(scene);
   // By Cauchy's formula a line meets a convex body in proportion to its surface.
   const double linesPerArea =
@@ -138,13 +144,13 @@ struct LineSweep::Buffers
   std::vector<float> Integral;
 };
 
-LineSweep::LineSweep(
-  const Scene& scene, const LightField& field, const DirectField& direct, int band)
+LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectField& direct,
+  int band, double tolerance)
     : Scene_(scene), Direct_(direct),
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
+      Lines_(LinesFor(scene, band, tolerance)), ThinLines_(Lines_.Thinned(ThinShare))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();

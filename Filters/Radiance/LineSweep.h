@@ -58,9 +58,11 @@ class LineSweep
 public:
   /// @param field holds the direct light of all cells and patches
   /// @param direct the same fluence inside the cells; must outlive the sweep
-  LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band);
+  /// @param tolerance that is asked for; a large one needs fewer lines
+  LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band,
+    double tolerance);
 
-  /// Lines that cross each cell about 1.5 times.
+  /// Lines that cross each cell about 1.5 times, or less often where little is asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }

@@ -3,6 +3,7 @@
 #include "Scene.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -28,7 +29,7 @@ double LongestEdge(const Vec3& size)
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
-    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size())
+    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()), Bands_(scene.Bands())
 {
   const Medium& smoke = scene.Smoke();
   const EmitterSet& lights = scene.Lights();
@@ -55,10 +56,35 @@ NearLights::NearLights(const Scene& scene)
       for (Light& light : cell.Lights)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
-        cell.Close = cell.Close || lights.Groups()[lights.Lights()[light.Index]].Distance(
-                                     smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+        const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+        light.Close = root.Distance(smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+        cell.Close = cell.Close || light.Close;
       }
     });
+  std::size_t pairs = 0;
+  for (const Cell& cell : this->Cells_)
+  {
+    this->FirstMean_.push_back(pairs);
+    pairs += cell.Lights.size();
+  }
+  this->Means_ = std::vector<std::atomic<float>>(pairs * this->Bands_);
+  for (std::atomic<float>& mean : this->Means_)
+  {
+    mean.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+  }
+}
+
+double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
+{
+  const Light& near = this->Cells_[cell].Lights[light];
+  const Spectrum mean = this->Direct_.NearCellFluence(
+    near.Index, this->Cells_[cell].Index, near.Clear, this->Fields_[near.Index].get());
+  std::atomic<float>* kept = &this->Means_[this->MeanIndex(cell, light)];
+  for (std::size_t each = 0; each < this->Bands_; ++each)
+  {
+    kept[each].store(static_cast<float>(mean[each]), std::memory_order_relaxed);
+  }
+  return kept[band].load(std::memory_order_relaxed);
 }
 
 double NearLights::FindCells(std::size_t light)
