@@ -239,23 +239,37 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
   double begin, double end, double place, int band) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
-  double sum = 0.0;
   const bool thick = this->Variation_[band * this->Cells_ + cell] == Variation::Thick;
   const int index = this->Lights_.Place(cell);
   const std::vector<NearLights::Light>& nearLights = this->Lights_.Cells()[index].Lights;
+  // Shadows and sharp beams would cost more than lines are worth, and what is not close is flat:
+  // means do.
+  const auto varies = [&](const NearLights::Light& light)
+  { return light.Clear && (light.Close || thick) && this->Lights_.Field(light.Index) != nullptr; };
+  double sum = 0.0;
+  double varying = 0.0;
   for (std::size_t i = 0; i < nearLights.size(); ++i)
   {
-    const NearField* field = this->Lights_.Field(nearLights[i].Index);
-    if (!nearLights[i].Clear || field == nullptr || !(nearLights[i].Close || thick))
+    const double mean = this->Lights_.Mean(index, i, band);
+    (varies(nearLights[i]) ? varying : sum) += mean;
+  }
+  // One light stands for all that vary, as often as it has a share in their mean; where it was
+  // found among them is as random as the place.
+  double before = 0.0;
+  for (std::size_t i = 0; i < nearLights.size(); ++i)
+  {
+    const double mean = varies(nearLights[i]) ? this->Lights_.Mean(index, i, band) : 0.0;
+    if (!(mean > 0.0) || place * varying >= before + mean)
     {
-      // Shadows and sharp beams would cost more than lines are worth.
-      sum += this->Lights_.Mean(index, i, band);
+      before += mean;
       continue;
     }
     const LightGroup& root = lights.Groups()[lights.Lights()[nearLights[i].Index]];
-    const Equiangular places(root, origin, direction);
-    const auto [distance, step] = places.At(begin, end, place);
-    sum += step / (end - begin) * field->Fluence(origin + distance * direction, band);
+    const double share = std::clamp((place * varying - before) / mean, 0.0, 1.0);
+    const auto [distance, step] = Equiangular(root, origin, direction).At(begin, end, share);
+    const NearField& field = *this->Lights_.Field(nearLights[i].Index);
+    return sum + varying / mean * step / (end - begin) *
+                   field.Fluence(origin + distance * direction, band);
   }
   return sum;
 }

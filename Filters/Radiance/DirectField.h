@@ -40,8 +40,8 @@ public:
   }
   /// Calls visit(length, fluence) for the parts that a piece of a ray is cut into inside a cell
   /// where the direct fluence varies, with an estimate of the mean direct fluence of each [lx].
-  /// @param place where in each part the near lights' fluence is taken, 0 to 1; the mean over
-  /// uniform places is theirs
+  /// @param place which of the near lights' fluence is taken in each part and where, 0 to 1; the
+  /// mean over uniform places is that of all
   template <class Visit>
   void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band, Visit&& visit) const
