@@ -14,7 +14,7 @@ namespace smokevis
 {
 
 /// A light within a few cell edges of a cell counts as near to it: its fluence is too steep there
-/// to be interpolated between cells. None where no smoke scatters.
+/// to be interpolated between cells.
 class NearLights
 {
 public:
@@ -72,6 +72,10 @@ private:
     return (this->FirstMean_[cell] + light) * this->Bands_;
   }
   double FindMean(std::size_t cell, std::size_t light, int band) const;
+  void Keep(std::size_t index, const Spectrum& mean) const;
+  /// Finds a light's means over cells that it is close to, by what it leaves there.
+  /// @param cells places among those that lights are near to
+  void Deposit(std::size_t light, const std::vector<std::size_t>& cells);
   /// Finds the cells near to a light; returns how far from it they reach [m].
   double FindCells(std::size_t light);
 

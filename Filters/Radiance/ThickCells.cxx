@@ -15,8 +15,10 @@ namespace smokevis
 namespace
 {
 
-/// A cell is worth it where this share of what it sends on comes back.
+/// A cell is worth it where this share of what it sends on comes back, and a whole sweep's change
+/// would be multiplied by so much.
 constexpr double ThickShare = 0.5;
+constexpr float SmallestGain = 1.5F;
 /// Sweeps whose lines measure the cells, and how much larger than measured the share may be that
 /// leaves a cell: too large a gain would not converge.
 constexpr std::uint64_t Sweeps = 8;
