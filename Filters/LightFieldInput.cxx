@@ -115,7 +115,8 @@ void LightFieldInput::Load(vtkDataObject* input)
   this->Report_ = {{"views set up", 1.0, "the light field is another one"},
     {"search structures built", scene->SharesShapes() ? 0.0 : 1.0,
       scene->SharesShapes() ? "those of the light field before hold the same shapes"
-                            : "shapes are new"}};
+                            : "shapes are new"},
+    LeaptAir(scene->Smoke())};
   auto field = std::make_shared<const LightField>(LoadLightField(blocks, scene->Smoke(), bands));
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
   for (vtkDataArray* const array : arrays)

@@ -284,6 +284,7 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
   smokevis::RequireMemoryForLight(blocks, this->Bands);
 
   task.Description = smokevis::BuildScene(blocks, task.Options);
+  task.Description.LeapsClearAir = this->SkipNeedlessWork;
   if (this->Bands == RGB && smokevis::BandsAreEqual(task.Description))
   {
     task.Description.Bands = 1;

@@ -140,7 +140,8 @@ public:
   ///@{
   /**
    * Whether work is left out that the scene does not need: lights that add next to nothing to part
-   * of the smoke, ways that others tell, equal bands. Off to measure what that saves. Default: on.
+   * of the smoke, ways that others tell, steps from cell to cell through clear air, equal bands.
+   * Off to measure what that saves. Default: on.
    */
   vtkSetMacro(SkipNeedlessWork, bool);
   vtkGetMacro(SkipNeedlessWork, bool);

@@ -20,6 +20,9 @@ struct WorkItem
   std::string Why;
 };
 
+/// What rays leap over in a smoke.
+WorkItem LeaptAir(const Medium& smoke);
+
 struct LightFieldOptions
 {
   /// Relative standard error that veil luminances are to have.

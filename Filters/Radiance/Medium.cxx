@@ -16,6 +16,10 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Share of a cell's edge behind its face at which its neighbour is sought.
 constexpr double JustBehind = 1e-3;
+/// What simulations leave in clear air counts as none where it adds less than this optical depth to
+/// any line through all smoke, and its extinction is below this share of the largest.
+constexpr double TraceDepth = 1e-10;
+constexpr double TraceShare = 1e-6;
 
 void CheckGrid(const SmokeGrid& grid)
 {
@@ -97,7 +101,7 @@ int Medium::Grid::Index(int axis, double coordinate) const
   return index;
 }
 
-Medium::Medium(std::vector<SmokeGrid> grids)
+Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
 {
   this->Lower_ = Vec3(Infinity);
   this->Upper_ = Vec3(-Infinity);
@@ -155,6 +159,11 @@ Medium::Medium(std::vector<SmokeGrid> grids)
   }
   this->MaximumExtinction_ = *std::max_element(this->Extinction_.begin(), this->Extinction_.end());
 
+  if (leaps)
+  {
+    this->FindClearAir();
+  }
+
   const float least = *std::min_element(this->Extinction_.begin(), this->Extinction_.end());
   this->Even_ = this->Grids_.size() == 1 && least == this->MaximumExtinction_;
 
@@ -170,6 +179,20 @@ Medium::Medium(std::vector<SmokeGrid> grids)
       const Vec3 upper = glm::min(this->Grids_[a].Bounds.Upper, this->Grids_[b].Bounds.Upper);
       this->Overlap_ = glm::all(glm::lessThan(lower, upper));
     }
+  }
+}
+
+void Medium::FindClearAir()
+{
+  const double longest = glm::length(this->Upper_ - this->Lower_);
+  const auto trace = static_cast<float>(
+    std::min(TraceDepth / longest, TraceShare * static_cast<double>(this->MaximumExtinction_)));
+  for (Grid& grid : this->Grids_)
+  {
+    grid.Clear = ClearBricks(
+      grid.Size, {this->Extinction_.data() + grid.FirstCell, trace,
+                   this->Emits() ? this->EmittedLuminance_.data() + grid.FirstCell : nullptr});
+    grid.Leaps = grid.Clear.Worthwhile();
   }
 }
 
@@ -281,6 +304,12 @@ std::vector<Medium::Block> Medium::Blocks(int edge) const
     }
   }
   return blocks;
+}
+
+std::int64_t Medium::LeaptCells() const
+{
+  return std::accumulate(this->Grids_.begin(), this->Grids_.end(), std::int64_t{0},
+    [](std::int64_t sum, const Grid& grid) { return sum + (grid.Leaps ? grid.Clear.Cells() : 0); });
 }
 
 std::int64_t Medium::Locate(const Vec3& point) const

@@ -4,6 +4,7 @@
 
 #include "Box.h"
 #include "CellParts.h"
+#include "ClearBricks.h"
 #include "Types.h"
 
 #include <string>
@@ -46,7 +47,8 @@ class Medium
 public:
   Medium() = default;
   /// Checks the grids; throws Error for bad nodes, sizes, NaN or negative extinction.
-  explicit Medium(std::vector<SmokeGrid> grids);
+  /// @param leaps whether rays that only meet smoke leap over clear bricks of cells
+  explicit Medium(std::vector<SmokeGrid> grids, bool leaps = true);
 
   /// Parts the cells that walls cut.
   void Divide(CellParts parts);
@@ -133,6 +135,13 @@ public:
   void Walk(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Segment>& pieces) const;
 
+  /// The same without the pieces in clear air, most of which are leapt over, as OpticalDepth does.
+  /// Air counts as clear where the smoke in it adds up to an optical depth of 1e-10 at most.
+  void WalkSmoke(const Vec3& origin, const Vec3& direction, double begin, double end,
+    std::vector<Segment>& pieces) const;
+  /// Cells that they leap over.
+  std::int64_t LeaptCells() const;
+
   /// Whether a point lies in smoke that is the same all over the one grid there is. Between two
   /// such points the extinction is MaximumExtinction().
   bool EvenAt(const Vec3& point) const
@@ -154,6 +163,9 @@ private:
     Box Bounds;
     /// Smallest cell volume, by which grids are ranked.
     double Fineness = 0.0;
+    ClearBricks Clear;
+    /// Whether rays look for them.
+    bool Leaps = false;
 
     int Index(int axis, double coordinate) const;
     std::int64_t Cell(const std::array<int, 3>& index) const
@@ -163,12 +175,21 @@ private:
     }
   };
 
-  template <class Visit>
+  class GridRay;
+  /// Which pieces of a ray are asked for.
+  enum class Pieces
+  {
+    All,
+    /// Pieces in clear air may be left out.
+    Smoke
+  };
+  template <Pieces Wanted, class Visit>
   void ForEachPiece(
     const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const;
-  template <class Visit>
-  static void WalkGrid(const Grid& grid, const Vec3& origin, const Vec3& direction,
-    const Vec3& inverse, double begin, double end, Visit&& visit);
+  template <Pieces Wanted>
+  void ListPieces(const Vec3& origin, const Vec3& direction, double begin, double end,
+    std::vector<Segment>& pieces) const;
+  void FindClearAir();
   const Grid& GridOf(std::int64_t cell, std::array<int, 3>& index) const;
   /// The cell of a grid that holds a point, or -1.
   std::int64_t LocateInGrids(const Vec3& point) const;

@@ -147,7 +147,7 @@ double PlateGather::Radiance(
   const Hit hit = this->Scene_.Shapes().Intersect(
     origin, direction, 0.0, std::numeric_limits<double>::infinity());
   thread_local std::vector<Segment> segments;
-  smoke.Walk(origin, direction, 0.0, hit.Distance, segments);
+  smoke.WalkSmoke(origin, direction, 0.0, hit.Distance, segments);
   const double albedo = this->Scene_.Albedo();
   double depth = 0.0;
   double sum = 0.0;

@@ -109,7 +109,7 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
 {
   CheckDescription(this->Description_);
   this->EmitterMesh_ = MeshOf(this->Description_.Emitters);
-  this->Smoke_ = Medium(std::move(this->Description_.Grids));
+  this->Smoke_ = Medium(std::move(this->Description_.Grids), this->Description_.LeapsClearAir);
   this->PatchReflectance_ = this->Description_.Surfaces.CellReflectance;
   this->PatchReflectance_.insert(this->PatchReflectance_.end(),
     this->EmitterMesh_.CellReflectance.begin(), this->EmitterMesh_.CellReflectance.end());

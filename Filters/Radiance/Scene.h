@@ -33,6 +33,8 @@ struct SceneDescription
   SurfaceMesh Surfaces;
   /// Plates of signs and lamps.
   std::vector<EmitterCell> Emitters;
+  /// Whether rays leap over bricks of clear cells; off: to measure what that saves.
+  bool LeapsClearAir = true;
 
   bool operator==(const SceneDescription&) const = default;
 };

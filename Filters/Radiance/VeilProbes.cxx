@@ -68,7 +68,7 @@ VeilProbes::VeilProbes(const Scene& scene, const LightField& field, int band, st
     double farthest =
       std::min(scene.Shapes().Intersect(start, away, 0.0, size).Distance, glm::length(way));
     std::vector<Segment> segments;
-    scene.Smoke().Walk(start, away, 0.0, farthest, segments);
+    scene.Smoke().WalkSmoke(start, away, 0.0, farthest, segments);
     double depth = 0.0;
     for (const Segment& segment : segments)
     {
@@ -95,7 +95,7 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
   const Hit end = scene.Shapes().Intersect(eye, direction, 0.0, 2.0 * reach);
   const double length = std::min(reach, end.Distance);
   std::vector<Segment> segments;
-  scene.Smoke().Walk(eye, direction, 0.0, length, segments);
+  scene.Smoke().WalkSmoke(eye, direction, 0.0, length, segments);
   double transmittance = 1.0;
   const double scatter = scene.Albedo() / (4.0 * glm::pi<double>());
   for (const Segment& segment : segments)

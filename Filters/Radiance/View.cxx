@@ -126,7 +126,7 @@ RayLight View::TraceVeil(
   light.OpticalDepth =
     begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
   thread_local std::vector<Segment> segments;
-  smoke.Walk(origin, direction, begin, end, segments);
+  smoke.WalkSmoke(origin, direction, begin, end, segments);
   for (const Segment& segment : segments)
   {
     const double extinction = smoke.Extinction(segment.Cell) * scale;

@@ -1,6 +1,8 @@
 // What each thing that a scene does not need saves by being left out, and what that changes.
 #include "BenchmarkCases.h"
 
+#include "Sampler.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -147,6 +149,64 @@ void SkipLight(ResultTable& table)
     [](const Scene&, const LightField& solved) { return Multiple(solved, 2); });
 }
 
+/// Optical depths from eyes all over a scene to its lights, or the luminances of such rays.
+Values Rays(const View& view, bool luminance)
+{
+  constexpr int Count = 4000;
+  const Scene& scene = view.TheScene();
+  const EvenPoints points(5);
+  Values values;
+  for (int ray = 0; ray < Count; ++ray)
+  {
+    const auto at = points.Point(ray);
+    const Vec3 eye =
+      scene.Lower() + Vec3(at[0], at[1], 0.4 * at[2]) * (scene.Upper() - scene.Lower());
+    const EmitterSet& lights = scene.Lights();
+    const Vec3 way = lights.CellCentre(ray % lights.Cells().size()) - eye;
+    const double length = glm::length(way);
+    values.push_back(luminance ? view.TraceVeil(eye, way / length, 0.0, length, 0).Veil()
+                               : scene.Smoke().OpticalDepth(eye, way / length, 0.0, length));
+  }
+  return values;
+}
+
+void SkipClearAir(ResultTable& table, const Settings& settings)
+{
+  // Smoke under the ceiling, on cells of 0.3 m, and a fire that has just begun.
+  SceneDescription layer = Corridor(0.3, 4, 0.5, 0.5);
+  layer.Surfaces = {};
+  scenes::AddRoom(layer.Surfaces, Vec3(0.0), {60, 20, 6}, 2.0, 0.5);
+  layer.Grids = {scenes::UniformSmoke(Vec3(0.0), {60, 20, 6}, {200, 66, 24}, 0.3)};
+  std::fill_n(layer.Grids[0].Extinction.begin(), 200 * 66 * 16, 0.0F);
+  const auto compare = [&](const std::string& name, SceneDescription description)
+  {
+    std::array<std::unique_ptr<const Scene>, 2> scenes;
+    std::array<std::unique_ptr<const View>, 2> views;
+    for (const bool leaps : {true, false})
+    {
+      description.LeapsClearAir = leaps;
+      scenes[leaps ? 0 : 1] = std::make_unique<const Scene>(description);
+      auto solved = Solve(description, SkipTolerance, 1, settings.Threads);
+      views[leaps ? 0 : 1] = std::move(solved.TheView);
+    }
+    const auto cells = static_cast<double>(scenes[0]->Smoke().Cells());
+    const std::string where =
+      name + " (" + Number(scenes[0]->Smoke().LeaptCells() / cells) + " of the cells)";
+    Compare(table, "clear air leapt over", where + ": light field",
+      [&](bool skips)
+      {
+        const Scene& scene = *scenes[skips ? 0 : 1];
+        return Direct(scene, SolveWith(scene, true));
+      });
+    Compare(table, "clear air leapt over", where + ": optical depths of 4000 rays",
+      [&](bool skips) { return Rays(*views[skips ? 0 : 1], false); });
+    Compare(table, "clear air leapt over", where + ": luminances of 4000 rays",
+      [&](bool skips) { return Rays(*views[skips ? 0 : 1], true); });
+  };
+  compare("layer of smoke", layer);
+  compare("hall at 60 s", Hall(60.0));
+}
+
 void SkipSteps(ResultTable& table)
 {
   SceneDescription description = Corridor(0.3, 4, 0.5, 0.5);
@@ -198,6 +258,7 @@ void RunSkips(const Settings& settings)
   ResultTable table(settings.Out + "/skips.csv",
     {"skip", "scene", "with_s", "without_s", "ratio", "largest_relative_difference"});
   SkipLight(table);
+  SkipClearAir(table, settings);
   SkipSteps(table);
   SkipSigns(table, settings);
 }

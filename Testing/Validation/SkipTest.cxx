@@ -2,6 +2,7 @@
 // says how often it was used.
 #include "Contrast.h"
 #include "FloorMap.h"
+#include "Sampler.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -151,6 +152,72 @@ TEST(Skip, ThinClearGapBesideALamp)
   const Outcome all = Solve(scene, false);
   report::Head("The same with another lamp on the far side");
   report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
+}
+
+// Rays that leap over clear air meet the same smoke at the same distances: the light field and what
+// is seen in it are the same to the bit. A layer under the ceiling, a wall that cuts cells, and a
+// clear passage through the smoke.
+TEST(Skip, ClearAir)
+{
+  SceneDescription description;
+  description.Albedo = 0.5;
+  const Vec3 upper(20, 4, 4);
+  description.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {100, 20, 20}, 1.0)};
+  for (std::size_t cell = 0; cell < description.Grids[0].Extinction.size(); ++cell)
+  {
+    const std::size_t x = cell % 100;
+    const std::size_t z = cell / 2000;
+    if (z < 11 || (x >= 40 && x < 80))
+    {
+      description.Grids[0].Extinction[cell] = 0.0F;
+    }
+  }
+  scenes::AddRoom(description.Surfaces, Vec3(0.0), upper, 2.0, 0.3);
+  scenes::AddRectangle(description.Surfaces, {6, 0, 0}, {1.1, 4, 0}, {0, 0, 4}, 2, 2, 0.3);
+  for (const double x : {3.0, 15.0})
+  {
+    description.Emitters.push_back(
+      scenes::Plate({x, 2, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.1));
+  }
+  description.Grids[0].EmittedLuminance.assign(description.Grids[0].Extinction.size(), 0.0F);
+  description.Grids[0].EmittedLuminance[95 + 100 * (10 + 20 * 15)] = 50.0F;
+  std::array<Outcome, 2> runs;
+  for (const bool leaps : {true, false})
+  {
+    description.LeapsClearAir = leaps;
+    runs[leaps ? 0 : 1] = Solve(description, true);
+  }
+  const auto& [leaping, stepping] = runs;
+  EXPECT_GT(leaping.TheScene->Smoke().Parts().Added(), 0);
+  EXPECT_EQ(leaping.Count("clear smoke cells"), 100 * 20 * 11 + 40 * 20 * 9);
+  EXPECT_EQ(stepping.Count("clear smoke cells"), 0.0);
+  EXPECT_EQ(leaping.Field->DirectFluence, stepping.Field->DirectFluence);
+  EXPECT_EQ(leaping.Field->DirectIlluminance, stepping.Field->DirectIlluminance);
+  for (std::size_t cell = 0; cell < leaping.Field->Cells; ++cell)
+  {
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      ASSERT_EQ(
+        leaping.Field->MultipleFluence[cell][batch], stepping.Field->MultipleFluence[cell][batch]);
+    }
+  }
+  const View leapt(leaping.TheScene, leaping.Field);
+  const View stepped(stepping.TheScene, stepping.Field);
+  for (int ray = 0; ray < 300; ++ray)
+  {
+    const EvenPoints points(7);
+    const auto at = points.Point(ray);
+    const Vec3 eye = upper * Vec3(at[0], at[1], at[2]);
+    const double angle = 6.2831853 * at[3];
+    const Vec3 direction =
+      glm::normalize(Vec3(std::cos(angle), std::sin(angle), std::sin(7.0 * angle)));
+    const Hit hit = leapt.FirstHit(eye, direction);
+    const RayLight one = leapt.Trace(eye, direction, hit, 0);
+    const RayLight other = stepped.Trace(eye, direction, hit, 0);
+    EXPECT_EQ(one.OpticalDepth, other.OpticalDepth);
+    EXPECT_EQ(one.Surface, other.Surface);
+    EXPECT_EQ(one.Veil(), other.Veil());
+  }
 }
 
 // Two equal bands are one; the second has other random numbers where it is solved for itself.
