@@ -31,6 +31,9 @@ constexpr double Grading = 0.25;
 constexpr double TwoPointAngle = 0.8;
 constexpr double OnePointAngle = 0.15;
 
+/// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
+constexpr double Rounding = 1e-6;
+
 struct GaussRule
 {
   int Count;
@@ -131,24 +134,23 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 
 } // namespace
 
-DirectField::DirectField(
-  const Scene& scene, const LightField& field, std::shared_ptr<const NearLights> lights)
+DirectField::DirectField(const Scene& scene, const LightField& field)
     : Scene_(scene), Field_(field), Direct_(scene), Open_(scene), Cells_(field.Cells),
-      Means_(field.DirectFluence), Shapes_(field.Bands), Lights_(std::move(lights))
+      Means_(field.DirectFluence), Shapes_(field.Bands), Lights_(scene.Near())
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
   {
     return;
   }
-  this->MeasureNearCells();
+  this->FindOthers();
   const auto alike = [this](std::int64_t cell, std::int64_t other)
   {
     if (!this->Near(other))
     {
       return false;
     }
-    const auto& first = this->Lights_->Cells()[this->Lights_->Place(cell)].Lights;
-    const auto& second = this->Lights_->Cells()[this->Lights_->Place(other)].Lights;
+    const auto& first = this->Lights_.Cells()[this->Lights_.Place(cell)].Lights;
+    const auto& second = this->Lights_.Cells()[this->Lights_.Place(other)].Lights;
     return std::equal(first.begin(), first.end(), second.begin(), second.end(),
       [](const NearLights::Light& one, const NearLights::Light& two)
       { return one.Index == two.Index; });
@@ -167,92 +169,32 @@ DirectField::DirectField(
   }
 }
 
-void DirectField::MeasureNearCells()
+void DirectField::FindOthers()
 {
-  const std::vector<NearLights::Cell>& cells = this->Lights_->Cells();
-  this->NearMeans_.resize(cells.size());
+  const std::vector<NearLights::Cell>& cells = this->Lights_.Cells();
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
   tbb::parallel_for(std::size_t{0}, cells.size(),
     [&](std::size_t i)
     {
-      const bool part = this->Scene_.Smoke().Parts().Find(cells[i].Index) != nullptr;
-      for (const NearLights::Light& light : cells[i].Lights)
-      {
-        this->NearMeans_[i].push_back(light.Clear && this->Lights_->Field(light.Index) && !part
-                                        ? Spectrum{}
-                                        : this->Direct_.CellFluence(light.Index, cells[i].Index));
-      }
-      const Spectrum others = this->OthersFluence(i);
       for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
       {
-        this->Means_[band * this->Cells_ + cells[i].Index] = static_cast<float>(others[band]);
+        float& mean = this->Means_[band * this->Cells_ + cells[i].Index];
+        double others = mean;
+        for (std::size_t light = 0; light < cells[i].Lights.size(); ++light)
+        {
+          others -= this->Lights_.Mean(i, light, static_cast<int>(band));
+        }
+        mean = cells[i].Lights.size() == lights || others < Rounding * mean
+                 ? 0.0F
+                 : static_cast<float>(others);
       }
     });
-}
-
-Spectrum DirectField::OthersFluence(std::size_t place) const
-{
-  const NearLights::Cell& near = this->Lights_->Cells()[place];
-  const bool part = this->Scene_.Smoke().Parts().Find(near.Index) != nullptr;
-  const std::size_t lights = this->Scene_.Lights().Lights().size();
-  Spectrum sum{};
-  if (near.Lights.size() == lights)
-  {
-    return sum;
-  }
-  if (near.Close && !part)
-  {
-    auto skip = near.Lights.begin();
-    for (std::size_t light = 0; light < lights; ++light)
-    {
-      if (skip != near.Lights.end() && skip->Index == light)
-      {
-        ++skip;
-        continue;
-      }
-      const Spectrum value = this->Direct_.CellFluence(light, near.Index);
-      for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
-      {
-        sum[band] += value[band];
-      }
-    }
-    return sum;
-  }
-  // Eight Gauss points know the near lights' mean to a percent, and take it from that of all.
-  const Vec3 centre = this->Scene_.Smoke().CellCentre(near.Index);
-  const Vec3 size = this->Scene_.Smoke().CellSize(near.Index);
-  for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
-  {
-    sum[band] = this->Means_[band * this->Cells_ + near.Index];
-  }
-  for (std::size_t i = 0; i < near.Lights.size(); ++i)
-  {
-    const NearLights::Light& light = near.Lights[i];
-    for (std::size_t band = 0; band < this->Shapes_.size() && part; ++band)
-    {
-      sum[band] -= this->NearMeans_[place][i][band];
-    }
-    for (int point = 0; point < 8 && !part; ++point)
-    {
-      const Vec3 share(Nodes2[point & 1], Nodes2[point >> 1 & 1], Nodes2[point >> 2 & 1]);
-      const Spectrum value =
-        this->Direct_.Fluence(light.Index, centre + (share - 0.5) * size, light.Clear);
-      for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
-      {
-        sum[band] -= 0.125 * value[band];
-      }
-    }
-  }
-  for (double& value : sum)
-  {
-    value = std::max(0.0, value);
-  }
-  return sum;
 }
 
 void DirectField::FindVarying()
 {
   const Medium& smoke = this->Scene_.Smoke();
-  this->Varies_.resize(this->Shapes_.size() * this->Cells_);
+  this->Variation_.assign(this->Shapes_.size() * this->Cells_, Variation::Flat);
   for (std::size_t band = 0; band < this->Shapes_.size(); ++band)
   {
     for (std::size_t i = 0; i < this->Cells_; ++i)
@@ -262,11 +204,16 @@ void DirectField::FindVarying()
       const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
                            this->Scene_.ExtinctionScale(static_cast<int>(band));
       const std::size_t index = band * this->Cells_ + i;
-      const int near = this->Lights_->Place(cell);
-      const bool close = near >= 0 && this->Lights_->Cells()[near].Close;
+      const int near = this->Lights_.Place(cell);
+      const bool close = near >= 0 && this->Lights_.Cells()[near].Close;
       // In the thickest cells pieces would not follow the light; means keep the balance of power.
-      this->Varies_[index] = this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
-                             depth < MostPieces * PieceDepth && (depth > FlatDepth || close);
+      if (this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
+          depth < MostPieces * PieceDepth)
+      {
+        this->Variation_[index] = depth > FlatDepth ? Variation::Thick
+                                  : close           ? Variation::Close
+                                                    : Variation::Flat;
+      }
     }
   }
 }
@@ -292,22 +239,37 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
   double begin, double end, double place, int band) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
+  const bool thick = this->Variation_[band * this->Cells_ + cell] == Variation::Thick;
+  const int index = this->Lights_.Place(cell);
+  const std::vector<NearLights::Light>& nearLights = this->Lights_.Cells()[index].Lights;
+  // Shadows and sharp beams would cost more than lines are worth, and what is not close is flat:
+  // means do.
+  const auto varies = [&](const NearLights::Light& light)
+  { return light.Clear && (light.Close || thick) && this->Lights_.Field(light.Index) != nullptr; };
   double sum = 0.0;
-  const int index = this->Lights_->Place(cell);
-  const std::vector<NearLights::Light>& nearLights = this->Lights_->Cells()[index].Lights;
+  double varying = 0.0;
   for (std::size_t i = 0; i < nearLights.size(); ++i)
   {
-    const NearField* field = this->Lights_->Field(nearLights[i].Index);
-    if (!nearLights[i].Clear || field == nullptr)
+    const double mean = this->Lights_.Mean(index, i, band);
+    (varies(nearLights[i]) ? varying : sum) += mean;
+  }
+  // One light stands for all that vary, as often as it has a share in their mean; where it was
+  // found among them is as random as the place.
+  double before = 0.0;
+  for (std::size_t i = 0; i < nearLights.size(); ++i)
+  {
+    const double mean = varies(nearLights[i]) ? this->Lights_.Mean(index, i, band) : 0.0;
+    if (!(mean > 0.0) || place * varying >= before + mean)
     {
-      // Shadows and sharp beams would cost more than lines are worth.
-      sum += this->NearMeans_[index][i][band];
+      before += mean;
       continue;
     }
     const LightGroup& root = lights.Groups()[lights.Lights()[nearLights[i].Index]];
-    const Equiangular places(root, origin, direction);
-    const auto [distance, step] = places.At(begin, end, place);
-    sum += step / (end - begin) * field->Fluence(origin + distance * direction, band);
+    const double share = std::clamp((place * varying - before) / mean, 0.0, 1.0);
+    const auto [distance, step] = Equiangular(root, origin, direction).At(begin, end, share);
+    const NearField& field = *this->Lights_.Field(nearLights[i].Index);
+    return sum + varying / mean * step / (end - begin) *
+                   field.Fluence(origin + distance * direction, band);
   }
   return sum;
 }
@@ -317,10 +279,10 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLights::Light& near : this->Lights_->Cells()[this->Lights_->Place(cell)].Lights)
+  for (const NearLights::Light& near : this->Lights_.Cells()[this->Lights_.Place(cell)].Lights)
   {
     const LightGroup& root = lights.Groups()[lights.Lights()[near.Index]];
-    const NearField* field = this->Lights_->Field(near.Index);
+    const NearField* field = this->Lights_.Field(near.Index);
     const Equiangular places(root, origin, direction);
     std::array<double, MostParts + 1> ends;
     const int parts = PartEnds(root, origin, direction, begin, end, extinction, ends);

@@ -8,7 +8,7 @@
 #include "NearLights.h"
 #include "OpenFaces.h"
 
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 namespace smokevis
@@ -21,9 +21,7 @@ class DirectField
 {
 public:
   /// @param field holds the direct fluence of all cells; must outlive this
-  /// @param lights which are near to cells
-  DirectField(
-    const Scene& scene, const LightField& field, std::shared_ptr<const NearLights> lights);
+  DirectField(const Scene& scene, const LightField& field);
 
   const OpenFaces& Open() const { return this->Open_; }
 
@@ -37,12 +35,13 @@ public:
   /// Whether the direct fluence varies inside a cell by more than a flat source may.
   bool Varies(std::int64_t cell, int band) const
   {
-    return !this->Varies_.empty() && this->Varies_[band * this->Cells_ + cell];
+    return !this->Variation_.empty() &&
+           this->Variation_[band * this->Cells_ + cell] != Variation::Flat;
   }
   /// Calls visit(length, fluence) for the parts that a piece of a ray is cut into inside a cell
   /// where the direct fluence varies, with an estimate of the mean direct fluence of each [lx].
-  /// @param place where in each part the near lights' fluence is taken, 0 to 1; the mean over
-  /// uniform places is theirs
+  /// @param place which of the near lights' fluence is taken in each part and where, 0 to 1; the
+  /// mean over uniform places is that of all
   template <class Visit>
   void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band, Visit&& visit) const
@@ -55,9 +54,9 @@ public:
       visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
     }
   }
-  bool Near(std::int64_t cell) const { return this->Lights_->Place(cell) >= 0; }
-  /// Fluence of the lights near to a cell at one place of a piece of a ray inside it, so weighted
-  /// that its mean over uniform places is that along the piece [lx].
+  bool Near(std::int64_t cell) const { return this->Lights_.Place(cell) >= 0; }
+  /// Fluence of the lights near to a cell where it varies, at one place of a piece of a ray inside
+  /// it, so weighted that its mean over uniform places is that along the piece [lx].
   /// @param place 0 to 1
   double NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band) const;
@@ -68,15 +67,13 @@ public:
     double end, double extinction, int band) const;
 
 private:
-  void MeasureNearCells();
+  /// Takes the near lights from the means of the cells that they are near to.
+  void FindOthers();
   void FindVarying();
   /// Parts that a piece of a ray of some length in a cell is cut into.
   int Pieces(std::int64_t cell, double length, int band) const;
   double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, double place, int band) const;
-  /// What the lights that are not near to a cell add to its direct fluence.
-  /// @param place of the cell among those that lights are near to
-  Spectrum OthersFluence(std::size_t place) const;
 
   const Scene& Scene_;
   const LightField& Field_;
@@ -86,12 +83,16 @@ private:
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;
   std::vector<CellShape> Shapes_;
-  std::shared_ptr<const NearLights> Lights_;
-  /// Of each cell that lights are near to and each such light, its fluence over the cell where
-  /// lines need it: where there are shadows or no lattice [lx].
-  std::vector<std::vector<Spectrum>> NearMeans_;
-  /// Whether the fluence varies inside a cell by more than a flat source may: [band][cell].
-  std::vector<bool> Varies_;
+  const NearLights& Lights_;
+  /// Why the fluence varies inside a cell by more than a flat source may: a light is close to the
+  /// cell, or its smoke is thick. [band][cell]
+  enum class Variation : std::uint8_t
+  {
+    Flat,
+    Close,
+    Thick
+  };
+  std::vector<Variation> Variation_;
 };
 
 } // namespace smokevis

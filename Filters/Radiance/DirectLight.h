@@ -37,6 +37,11 @@ public:
     std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
   /// Mean fluence over a smoke cell [lx].
   Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
+  /// The same, of a light near to the cell.
+  /// @param clear whether nothing hides it from the cell
+  /// @param kept its fluence around it, or none
+  Spectrum NearCellFluence(
+    std::size_t light, std::int64_t cell, bool clear, const NearField* kept) const;
   /// How the cells of a block came by a light's fluence.
   struct BlockWork
   {
@@ -49,9 +54,10 @@ public:
   /// are much the same: where a few of them tell the rest, they do.
   /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
   /// sums hold bounds what is negligible
-  /// @param skips whether ways are told and negligible lights left out
-  BlockWork AddBlockFluence(
-    std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
+  /// @param tolerance error that an optical depth may have that others tell, for a light that makes
+  /// up all of the fluence; 0: none is told, and no light left out
+  BlockWork AddBlockFluence(std::size_t light, const Medium::Block& block, double tolerance,
+    std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
@@ -112,6 +118,8 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
+  /// Mean fluence over a cell of a light that is near to it; none where it is not.
+  std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
   /// Mean fluence over a part of a cell that walls cut.
   Spectrum PartFluence(std::size_t light, const CellPart& part) const;
   /// A light as a box of smoke sees it.
@@ -151,8 +159,8 @@ private:
   /// Mean extinction between the cells of a block and a light: linear between the corners of the
   /// block; none where that does not hold. The less a light may add to what the cells hold, the
   /// rougher its ways may be told.
-  std::optional<Told> BlockWays(
-    const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const;
+  std::optional<Told> BlockWays(const LightGroup& root, const Medium::Block& block,
+    double tolerance, const std::vector<Spectrum>& sums) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 

@@ -14,10 +14,8 @@ namespace
 {
 
 /// Cells along the edges of the smallest block in which ways tell of each other, error of an
-/// optical depth that is told so, that of the weakest lights, and where in the block it is
-/// measured.
+/// optical depth that is told so of the weakest lights, and where in the block it is measured.
 constexpr int SmallestBlock = 4;
-constexpr double WayTolerance = 0.004;
 constexpr double RoughWayTolerance = 0.5;
 constexpr std::array<std::array<double, 3>, 3> WayChecks = {
   {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
@@ -107,8 +105,8 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
   return share;
 }
 
-std::optional<DirectLight::Told> DirectLight::BlockWays(
-  const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const
+std::optional<DirectLight::Told> DirectLight::BlockWays(const LightGroup& root,
+  const Medium::Block& block, double tolerance, const std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const auto cornerCell = [&](int corner)
@@ -143,8 +141,7 @@ std::optional<DirectLight::Told> DirectLight::BlockWays(
                static_cast<double>(this->Scene_.Lights().Lights().size());
   // A weak light may be off by as much of the whole as the strongest; but the share is a bound only
   // where the corners do tell of what lies between.
-  const double allowed =
-    std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / told.Share));
+  const double allowed = std::min(RoughWayTolerance, tolerance * std::max(1.0, 1.0 / told.Share));
   const double scale = this->Scene_.LargestScale();
   for (const auto& share : WayChecks)
   {
@@ -164,17 +161,17 @@ std::optional<DirectLight::Told> DirectLight::BlockWays(
   return told;
 }
 
-DirectLight::BlockWork DirectLight::AddBlockFluence(
-  std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Medium::Block& block,
+  double tolerance, std::vector<Spectrum>& sums) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
   std::optional<Told> told;
-  if (skips && largest >= SmallestBlock)
+  if (tolerance > 0.0 && largest >= SmallestBlock)
   {
-    told = this->BlockWays(root, block, sums);
+    told = this->BlockWays(root, block, tolerance, sums);
   }
   BlockWork work;
   if (!told && largest > SmallestBlock)
@@ -193,7 +190,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
       }
       if (!empty)
       {
-        const BlockWork own = this->AddBlockFluence(light, child, skips, sums);
+        const BlockWork own = this->AddBlockFluence(light, child, tolerance, sums);
         work.Told += own.Told;
         work.Negligible += own.Negligible;
       }
@@ -218,11 +215,14 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
           // The parts of a cell are measured each by itself.
           continue;
         }
+        // What is kept of a light near to the cell is taken from the sum again, to the same digits.
+        const std::optional<Spectrum> kept = told ? this->KeptFluence(light, cell) : std::nullopt;
         const Spectrum value =
-          told ? this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
-                                    told->Share < WeakShare},
-                   smoke.CellCentre(cell), smoke.CellSize(cell), 0)
-               : this->CellFluence(light, cell);
+          !told  ? this->CellFluence(light, cell)
+          : kept ? *kept
+                 : this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
+                                      told->Share < WeakShare},
+                     smoke.CellCentre(cell), smoke.CellSize(cell), 0);
         work.Told += told ? 1 : 0;
         for (int band = 0; band < this->Scene_.Bands(); ++band)
         {

@@ -102,8 +102,50 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   return this->VisibleShare(root, centre) == 1.0;
 }
 
+std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const
+{
+  const int place = this->Near_ ? this->Near_->Place(cell) : -1;
+  if (place < 0)
+  {
+    return std::nullopt;
+  }
+  const std::vector<NearLights::Light>& there = this->Near_->Cells()[place].Lights;
+  const auto found = std::find_if(there.begin(), there.end(),
+    [light](const NearLights::Light& near) { return near.Index == light; });
+  if (found == there.end())
+  {
+    return std::nullopt;
+  }
+  Spectrum mean{};
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    mean[band] = this->Near_->Mean(place, found - there.begin(), band);
+  }
+  return mean;
+}
+
+Spectrum DirectLight::NearCellFluence(
+  std::size_t light, std::int64_t cell, bool clear, const NearField* kept) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  if (const CellPart* part = smoke.Parts().Find(cell))
+  {
+    return this->PartFluence(light, *part);
+  }
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  BoxLight box{light, clear};
+  // In the thickest cells light does not follow what is interpolated.
+  box.Near = clear && this->BoxDepth(centre, size) < DeepestGauss ? kept : nullptr;
+  return this->BoxFluence(box, centre, size, BoxSplits);
+}
+
 Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
 {
+  if (const std::optional<Spectrum> kept = this->KeptFluence(light, cell))
+  {
+    return *kept;
+  }
   const Medium& smoke = this->Scene_.Smoke();
   if (const CellPart* part = smoke.Parts().Find(cell))
   {
@@ -113,27 +155,9 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  BoxLight box{light};
-  const int near = this->Near_ ? this->Near_->Place(cell) : -1;
-  if (near >= 0)
-  {
-    const std::vector<NearLights::Light>& lightsThere = this->Near_->Cells()[near].Lights;
-    const auto found = std::find_if(lightsThere.begin(), lightsThere.end(),
-      [light](const NearLights::Light& there) { return there.Index == light; });
-    if (found != lightsThere.end())
-    {
-      box.Clear = found->Clear;
-      // In the thickest cells light does not follow what is interpolated.
-      box.Near = found->Clear && this->BoxDepth(centre, size) < DeepestGauss
-                   ? this->Near_->Field(light)
-                   : nullptr;
-      return this->BoxFluence(box, centre, size, BoxSplits);
-    }
-  }
   const bool splits =
     std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
-  box.Clear = splits && this->Clear(light, cell);
-  return this->BoxFluence(box, centre, size, BoxSplits);
+  return this->BoxFluence({light, splits && this->Clear(light, cell)}, centre, size, BoxSplits);
 }
 
 Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const

@@ -2,6 +2,7 @@
 
 #include "DirectLight.h"
 #include "Errors.h"
+#include "NearLights.h"
 #include "Scene.h"
 #include "Team.h"
 
@@ -19,7 +20,15 @@ namespace
 
 /// Cells along the edges of the blocks that share ways to the lights.
 constexpr int BlockEdge = 8;
-/// Share of the work that cells are expected to take.
+/// Error that an optical depth told by others may have, of a light that makes up all of a cell's.
+constexpr double WayTolerance = 0.004;
+/// Tasks for each thread between two reports of progress, so that none of them waits long for
+/// others.
+constexpr std::size_t TasksAThread = 8;
+/// Shares of the work that are expected to be done after the cells near to lights, after the parts
+/// of cells, and after all cells.
+constexpr double NearShare = 0.2;
+constexpr double PartShare = 0.4;
 constexpr double CellShare = 0.8;
 
 struct Triangle
@@ -48,10 +57,9 @@ std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 } // namespace
 
 DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team,
-  Progress& progress, tbb::task_arena& arena, double share, const NearLights& near,
-  LightField& field)
+  Progress& progress, tbb::task_arena& arena, double share, LightField& field)
     : Scene_(scene), Options_(options), Team_(team), Progress_(progress), Arena_(arena),
-      Share_(share), Near_(near), Field_(field)
+      Share_(share), Field_(field)
 {
 }
 
@@ -60,7 +68,8 @@ void DirectSolve::ForOwn(std::size_t count, std::size_t grain, double from, doub
 {
   constexpr std::size_t steps = 50;
   const std::size_t own = this->Team_.OwnCount(count);
-  const std::size_t chunk = std::max<std::size_t>(1, (own + steps - 1) / steps);
+  const std::size_t busy = grain * TasksAThread * this->Arena_.max_concurrency();
+  const std::size_t chunk = std::max(busy, (own + steps - 1) / steps);
   for (std::size_t begin = 0; begin < own; begin += chunk)
   {
     const std::size_t end = std::min(own, begin + chunk);
@@ -106,18 +115,32 @@ std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block)
   return order;
 }
 
-double DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sums)
+void DirectSolve::NearCells()
 {
-  const Medium& smoke = this->Scene_.Smoke();
-  const std::vector<CellPart>& parts = smoke.Parts().Parts();
+  const NearLights& near = this->Scene_.Near();
+  const std::vector<NearLights::Cell>& cells = near.Cells();
+  this->ForOwn(cells.size(), 4, 0.0, NearShare,
+    [&](std::size_t cell)
+    {
+      for (std::size_t light = 0; light < cells[cell].Lights.size(); ++light)
+      {
+        near.Mean(cell, light, 0);
+      }
+    });
+  this->Team_.Complete<float>(
+    cells.size(), [&](std::size_t cell, auto&& take) { near.ForEachMean(cell, take); });
+}
+
+void DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sums)
+{
+  const std::vector<CellPart>& parts = this->Scene_.Smoke().Parts().Parts();
   if (parts.empty())
   {
-    return 0.0;
+    return;
   }
   this->Field_.Report.push_back({"parts of cells", static_cast<double>(parts.size()),
     "surfaces or plates cut the cells: each part has light of its own"});
-  constexpr double share = 0.5 * CellShare;
-  this->ForOwn(parts.size(), 16, 0.0, share,
+  this->ForOwn(parts.size(), 16, NearShare, PartShare,
     [&](std::size_t part)
     {
       const std::int64_t cell = parts[part].Number;
@@ -132,7 +155,6 @@ double DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& s
     });
   this->Team_.Complete<Spectrum>(
     parts.size(), [&](std::size_t part, auto&& take) { take(sums[parts[part].Number]); });
-  return share;
 }
 
 void DirectSolve::Cells()
@@ -142,19 +164,21 @@ void DirectSolve::Cells()
   {
     return;
   }
-  const DirectLight direct(this->Scene_, &this->Near_);
+  const DirectLight direct(this->Scene_, &this->Scene_.Near());
   const std::vector<Medium::Block> blocks = smoke.Blocks(BlockEdge);
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
-  const double partShare = this->AddParts(direct, sums);
+  this->NearCells();
+  this->AddParts(direct, sums);
+  const double wayTolerance = this->Options_.Skips ? WayTolerance : 0.0;
   std::atomic<std::size_t> told{0};
   std::atomic<std::size_t> negligible{0};
-  this->ForOwn(blocks.size(), 1, partShare, CellShare,
+  this->ForOwn(blocks.size(), 1, PartShare, CellShare,
     [&](std::size_t block)
     {
       for (const std::size_t light : this->StrongestFirst(blocks[block]))
       {
         const DirectLight::BlockWork work =
-          direct.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
+          direct.AddBlockFluence(light, blocks[block], wayTolerance, sums);
         told += work.Told;
         negligible += work.Negligible;
       }

@@ -9,7 +9,6 @@ namespace smokevis
 {
 
 class DirectLight;
-class NearLights;
 
 /// Works out the light that comes straight from the emitters, in parallel: blocks of cells and
 /// patches do not depend on each other.
@@ -18,9 +17,8 @@ class DirectSolve
 public:
   /// @param share of the progress bar, from 0, that this takes
   /// @param field receives the direct fluence and illuminance, and what was left out
-  /// @param near lights near to cells
   DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team, Progress& progress,
-    tbb::task_arena& arena, double share, const NearLights& near, LightField& field);
+    tbb::task_arena& arena, double share, LightField& field);
 
   /// Throws Error when it is stopped.
   void Cells();
@@ -29,8 +27,10 @@ public:
 private:
   /// Lights in the order of what they would send to a block through clear air.
   std::vector<std::size_t> StrongestFirst(const Medium::Block& block) const;
-  /// Adds the light in the parts of cells that walls cut; returns the share of the work.
-  double AddParts(const DirectLight& direct, std::vector<Spectrum>& sums);
+  /// Works out the means over cells of the lights near to them.
+  void NearCells();
+  /// Adds the light in the parts of cells that walls cut.
+  void AddParts(const DirectLight& direct, std::vector<Spectrum>& sums);
   /// Runs body(i) for this process's items of so many, in steps between which progress is reported.
   /// @param grain how many of them are worth a task
   template <class Body>
@@ -42,7 +42,6 @@ private:
   Progress& Progress_;
   tbb::task_arena& Arena_;
   double Share_;
-  const NearLights& Near_;
   LightField& Field_;
 };
 

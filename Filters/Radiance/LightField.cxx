@@ -100,7 +100,6 @@ private:
   LightField Field_;
   /// Lines of the present band that were traced for each batch.
   std::size_t LinesABatch_ = 0;
-  std::shared_ptr<const NearLights> Near_;
   /// Made when a band needs it, once the direct fluence is known.
   std::unique_ptr<DirectField> Inside_;
 };
@@ -225,8 +224,8 @@ const DirectField& Solver::Inside()
 {
   if (!this->Inside_)
   {
-    this->Arena_.execute([this]
-      { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_, this->Near_); });
+    this->Arena_.execute(
+      [this] { this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_); });
   }
   return *this->Inside_;
 }
@@ -284,7 +283,7 @@ void Solver::SolveMultiple(int band)
       return;
     }
   }
-  const LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band);
+  const LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band, this->Options_.Tolerance);
   if (!(sweep.FirstSource() > 0.0))
   {
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
@@ -350,7 +349,7 @@ void Solver::SolveMultiple(int band)
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),
-    "each cell is crossed about 1.5 times");
+    "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");
   this->Say(name + "lines of a batch in all", static_cast<double>(this->LinesABatch_),
     "of whole sweeps and of thin ones");
   for (int rank = 0; rank < this->Team_.Size() && this->Team_.Size() > 1; ++rank)
@@ -415,9 +414,9 @@ LightField Solver::Run()
   {
     throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
   }
-  this->Arena_.execute([this] { this->Near_ = std::make_shared<const NearLights>(this->Scene_); });
+  this->Arena_.execute([this] { this->Scene_.Near(); });
   DirectSolve direct(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
-    DirectShare, *this->Near_, this->Field_);
+    DirectShare, this->Field_);
   direct.Cells();
   direct.Patches();
   this->Field_.Report.push_back(LeaptAir(this->Scene_.Smoke()));

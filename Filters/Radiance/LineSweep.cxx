@@ -16,11 +16,19 @@ namespace smokevis
 namespace
 {
 
+/// How often a sweep's lines cross each cell and meet each patch, and how many there are at least.
+/// Above a tolerance fewer do: a few sweeps there must be for the light to settle, which would
+/// bring less noise than is asked for.
 constexpr double CrossingsPerSweep = 1.5;
-constexpr std::size_t FewestLines = 512;
+constexpr double FewestLines = 512.0;
+constexpr double CoarseTolerance = 0.03;
+constexpr double FewestShare = 0.25;
 constexpr double MostLinesForPatches = 20000.0;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
+
+/// Radiance of a line's two directions together over the fluence, where light is isotropic.
+constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
 
 /// How many times the smoke's box the scene's must be for lines through the smoke's alone.
 constexpr double InnerRatio = 3.0;
@@ -86,7 +94,7 @@ GlobalLines LinesFor(const Scene& scene, int band)
     boundary += BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell)));
   }
   const auto count = [](double lines)
-  { return std::max(FewestLines, static_cast<std::size_t>(std::ceil(lines))); };
+  { return static_cast<std::size_t>(std::ceil(std::max(FewestLines, lines))); };
   const Box box = SceneBox(scene);
   // By Cauchy's formula a line meets a convex body in proportion to its surface.
   const double linesPerArea =
@@ -134,17 +142,19 @@ struct LineSweep::Buffers
   std::vector<float> Length, Depth, Source, Transmittance, Escape, Added;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
-  /// Sum of both directions' path integrals.
-  std::vector<float> Integral;
+  /// By how much the radiances of both directions together, where they come in, exceed the source.
+  std::vector<float> Excess;
 };
 
-LineSweep::LineSweep(
-  const Scene& scene, const LightField& field, const DirectField& direct, int band)
+LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectField& direct,
+  int band, double tolerance)
     : Scene_(scene), Direct_(direct),
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
+      ThinLines_(LinesFor(scene, band).Thinned(ThinShare)),
+      Lines_(
+        LinesFor(scene, band).Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0)))
 {
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
@@ -166,6 +176,7 @@ LineSweep::LineSweep(
         static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
     }
   }
+  this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_);
   this->CellCrossings_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
@@ -271,7 +282,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   buffers.Transmittance.resize(pieces);
   buffers.Escape.resize(pieces);
   buffers.Added.resize(pieces);
-  buffers.Integral.resize(pieces);
+  buffers.Excess.resize(pieces);
   for (std::size_t i = 0; i < pieces; ++i)
   {
     const float depth = buffers.Depth[i];
@@ -297,8 +308,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   {
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
-      const float excess = radiance - buffers.Source[i];
-      buffers.Integral[i] = buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      buffers.Excess[i] = radiance - buffers.Source[i];
       radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
     }
     if (part < crossings)
@@ -313,8 +323,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   {
     for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
     {
-      const float excess = radiance - buffers.Source[i];
-      buffers.Integral[i] += buffers.Length[i] * (buffers.Source[i] + excess * buffers.Escape[i]);
+      buffers.Excess[i] += radiance - buffers.Source[i];
       radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
     }
     if (part > 0)
@@ -324,12 +333,12 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     }
   }
   tallies.Escaped += weight * radiance;
-  constexpr float isotropic = static_cast<float>(0.5 / glm::pi<double>());
   for (std::size_t i = 0; i < pieces; ++i)
   {
     LineTallies::Cell& cell = tallies.Cells[buffers.Cell[i]];
     cell.Fluence +=
-      weight * (buffers.Integral[i] - isotropic * cell.ExpectedFluence * buffers.Length[i]);
+      weight * buffers.Length[i] *
+      (buffers.Excess[i] * buffers.Escape[i] + (2.0F * buffers.Source[i] - cell.Expected));
   }
 }
 
@@ -347,10 +356,15 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   for (std::size_t cell = 0; cell < fluence.size(); ++cell)
   {
     const float emission = this->Emission_.empty() ? 0.0F : this->Emission_[cell];
-    tallies.Cells[cell] = {
-      this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) + emission,
-      this->Extinction_[cell],
-      sweeps * this->CellCrossings_[cell] >= FewestMeetings ? scale * fluence[cell] : 0.0F, 0.0F};
+    const float source =
+      this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) + emission;
+    const bool known = sweeps * this->CellCrossings_[cell] >= FewestMeetings;
+    // In a thick cell there is little but what it sends on.
+    tallies.Cells[cell] = {source, this->Extinction_[cell],
+      this->Thick_.IsThick(cell) ? 2.0F * source
+      : known                    ? scale * BothWays * fluence[cell]
+                                 : 0.0F,
+      0.0F};
   }
   const std::vector<float>& illuminance = counted ? state.IlluminanceSum : state.Illuminance;
   tallies.ExpectedIlluminance.resize(illuminance.size());
@@ -361,6 +375,29 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   }
   tallies.Illuminance.assign(illuminance.size(), 0.0F);
   tallies.Escaped = 0.0;
+}
+
+void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState& state) const
+{
+  constexpr float isotropic = static_cast<float>(4.0 * glm::pi<double>());
+  const auto albedo = static_cast<float>(this->Scene_.Albedo());
+  for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
+  {
+    const LineTallies::Cell& tally = tallies.Cells[cell];
+    const float change = this->InverseVolume_[cell] * tally.Fluence;
+    if (this->Thick_.IsThick(cell))
+    {
+      // Expected was what the cell sends out, less than single precision from what it holds.
+      const float emission = this->Emission_.empty() ? 0.0F : isotropic * this->Emission_[cell];
+      const float residual = albedo * this->DirectFluence_[cell] + emission -
+                             (1.0F - albedo) * state.Fluence[cell] + change;
+      state.FluenceSum[cell] += state.Fluence[cell] + residual;
+      state.Fluence[cell] += this->Thick_.Gain(cell, share) * residual;
+      continue;
+    }
+    state.Fluence[cell] = tally.Expected / BothWays + change;
+    state.FluenceSum[cell] += state.Fluence[cell];
+  }
 }
 
 void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
@@ -379,12 +416,7 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     this->TraceLine(state, draw.Get(line), tallies, buffers);
   }
 
-  for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
-  {
-    const LineTallies::Cell& tally = tallies.Cells[cell];
-    state.Fluence[cell] = tally.ExpectedFluence + this->InverseVolume_[cell] * tally.Fluence;
-    state.FluenceSum[cell] += state.Fluence[cell];
-  }
+  this->TakeFluence(tallies, this->ShareOf(thin), state);
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
     const double area = this->Scene_.ExposedArea(side / 2, side % 2);
@@ -395,7 +427,7 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     }
     state.IlluminanceSum[side] += state.Illuminance[side];
   }
-  state.Share = thin ? static_cast<float>(ThinShare) : 1.0F;
+  state.Share = this->ShareOf(thin);
   state.EscapedSum += tallies.Escaped;
   ++state.Counted;
 }

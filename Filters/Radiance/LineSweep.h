@@ -4,6 +4,7 @@
 #include "GlobalLines.h"
 #include "LightField.h"
 #include "Scene.h"
+#include "ThickCells.h"
 
 #include <cstdint>
 #include <vector>
@@ -39,7 +40,8 @@ struct LineTallies
   {
     /// Luminance of what the cell sends on and emits [cd/m2], and its extinction coefficient [1/m].
     float Source, Extinction;
-    float ExpectedFluence, Fluence;
+    /// Radiance of both directions that is expected along a line, and the tally of what differs.
+    float Expected, Fluence;
   };
   std::vector<Cell> Cells;
   std::vector<float> Illuminance;
@@ -58,14 +60,17 @@ class LineSweep
 public:
   /// @param field holds the direct light of all cells and patches
   /// @param direct the same fluence inside the cells; must outlive the sweep
-  LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band);
+  /// @param tolerance that is asked for; a large one needs fewer lines
+  LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band,
+    double tolerance);
 
-  /// Lines that cross each cell about 1.5 times.
+  /// Lines that cross each cell about 1.5 times, or less often where little is asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
+  const ThickCells& Thick() const { return this->Thick_; }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
-  /// Share of the lines that a thin sweep has.
+  /// Share of the lines that a thin sweep has, of those that a small tolerance needs.
   static constexpr double ThinShare = 0.25;
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
@@ -92,6 +97,14 @@ private:
   void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
     Buffers& buffers) const;
+  /// Share of a whole sweep's lines that a sweep has.
+  float ShareOf(bool thin) const
+  {
+    return thin ? static_cast<float>(this->ThinLines()) / static_cast<float>(this->Lines()) : 1.0F;
+  }
+  /// Takes the tallies of the cells into a state.
+  /// @param share of a whole sweep's lines that were traced
+  void TakeFluence(const LineTallies& tallies, float share, BatchState& state) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 
@@ -107,7 +120,8 @@ private:
   std::vector<float> Extinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  GlobalLines Lines_, ThinLines_;
+  GlobalLines ThinLines_, Lines_;
+  ThickCells Thick_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
 };

@@ -1,8 +1,10 @@
 #include "NearLights.h"
 
+#include "NearDeposit.h"
 #include "Scene.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -20,6 +22,11 @@ constexpr double CloseEdges = 2.01;
 /// Sharpest law of emission of lights whose fluence is kept on lattices.
 constexpr double SmoothestLaw = 2.0;
 
+/// Cells that a plate lies in or touches have their centres within so many edges of it; above this
+/// optical depth it is the light itself that tells what it leaves there.
+constexpr double TouchEdges = 0.9;
+constexpr double DepositDepth = 0.019;
+
 double LongestEdge(const Vec3& size)
 {
   return std::max({size.x, size.y, size.z});
@@ -28,11 +35,11 @@ double LongestEdge(const Vec3& size)
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
-    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size())
+    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()), Bands_(scene.Bands())
 {
   const Medium& smoke = scene.Smoke();
   const EmitterSet& lights = scene.Lights();
-  if (smoke.Empty() || scene.Albedo() == 0.0)
+  if (smoke.Empty())
   {
     return;
   }
@@ -55,10 +62,77 @@ NearLights::NearLights(const Scene& scene)
       for (Light& light : cell.Lights)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
-        cell.Close = cell.Close || lights.Groups()[lights.Lights()[light.Index]].Distance(
-                                     smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+        const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+        light.Close = root.Distance(smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+        cell.Close = cell.Close || light.Close;
       }
     });
+  std::size_t pairs = 0;
+  for (const Cell& cell : this->Cells_)
+  {
+    this->FirstMean_.push_back(pairs);
+    pairs += cell.Lights.size();
+  }
+  this->Means_ = std::vector<std::atomic<float>>(pairs * this->Bands_);
+  for (std::atomic<float>& mean : this->Means_)
+  {
+    mean.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+  }
+  std::vector<std::vector<std::size_t>> close(this->Fields_.size());
+  for (std::size_t cell = 0; cell < this->Cells_.size(); ++cell)
+  {
+    for (const Light& light : this->Cells_[cell].Lights)
+    {
+      const std::int64_t index = this->Cells_[cell].Index;
+      const double edge = LongestEdge(smoke.CellSize(index));
+      const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+      if (root.Distance(smoke.CellCentre(index)) < TouchEdges * edge &&
+          smoke.Extinction(index) * scene.LargestScale() * edge > DepositDepth)
+      {
+        close[light.Index].push_back(cell);
+      }
+    }
+  }
+  tbb::parallel_for(
+    std::size_t{0}, close.size(), [&](std::size_t light) { this->Deposit(light, close[light]); });
+}
+
+void NearLights::Deposit(std::size_t light, const std::vector<std::size_t>& cells)
+{
+  if (cells.empty())
+  {
+    return;
+  }
+  std::vector<std::int64_t> indices;
+  for (const std::size_t cell : cells)
+  {
+    indices.push_back(this->Cells_[cell].Index);
+  }
+  const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, indices).Run();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const std::vector<Light>& there = this->Cells_[cells[i]].Lights;
+    const auto found = std::find_if(
+      there.begin(), there.end(), [light](const Light& near) { return near.Index == light; });
+    this->Keep(this->MeanIndex(cells[i], found - there.begin()), means[i]);
+  }
+}
+
+void NearLights::Keep(std::size_t index, const Spectrum& mean) const
+{
+  for (std::size_t band = 0; band < this->Bands_; ++band)
+  {
+    this->Means_[index + band].store(static_cast<float>(mean[band]), std::memory_order_relaxed);
+  }
+}
+
+double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
+{
+  const Light& near = this->Cells_[cell].Lights[light];
+  const Spectrum mean = this->Direct_.NearCellFluence(
+    near.Index, this->Cells_[cell].Index, near.Clear, this->Fields_[near.Index].get());
+  this->Keep(this->MeanIndex(cell, light), mean);
+  return static_cast<float>(mean[band]);
 }
 
 double NearLights::FindCells(std::size_t light)

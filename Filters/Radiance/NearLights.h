@@ -4,6 +4,8 @@
 #include "DirectLight.h"
 #include "NearField.h"
 
+#include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -12,7 +14,7 @@ namespace smokevis
 {
 
 /// A light within a few cell edges of a cell counts as near to it: its fluence is too steep there
-/// to be interpolated between cells. None where no smoke scatters.
+/// to be interpolated between cells.
 class NearLights
 {
 public:
@@ -23,12 +25,14 @@ public:
     std::uint32_t Index = 0;
     /// Whether the whole cell sees it unhidden.
     bool Clear = false;
+    /// Whether it is so close that its fluence varies much inside the cell.
+    bool Close = false;
   };
   struct Cell
   {
     std::int64_t Index = 0;
     std::vector<Light> Lights;
-    /// Whether one is so close that its fluence varies much inside the cell.
+    /// Whether any of them is close.
     bool Close = false;
   };
   /// Cells that lights are near to.
@@ -38,8 +42,40 @@ public:
   /// The lattices of a light that is near to some cell; none where it changes too quickly with the
   /// angle, as measured light may.
   const NearField* Field(std::size_t light) const { return this->Fields_[light].get(); }
+  /// Mean fluence over a cell of one of the lights near to it [lx]; computed when it is first asked
+  /// for.
+  /// @param cell place of the cell among those that lights are near to
+  /// @param light place of the light among the cell's
+  double Mean(std::size_t cell, std::size_t light, int band) const
+  {
+    const std::atomic<float>& kept = this->Means_[this->MeanIndex(cell, light) + band];
+    const float known = kept.load(std::memory_order_relaxed);
+    return std::isnan(known) ? this->FindMean(cell, light, band) : known;
+  }
+
+  /// Calls take(mean) for all means over a cell as they are kept, NaN where they are not computed
+  /// yet, and keeps what it makes of them.
+  template <class Take> void ForEachMean(std::size_t cell, Take&& take) const
+  {
+    const std::size_t first = this->MeanIndex(cell, 0);
+    for (std::size_t i = 0; i < this->Cells_[cell].Lights.size() * this->Bands_; ++i)
+    {
+      float mean = this->Means_[first + i].load(std::memory_order_relaxed);
+      take(mean);
+      this->Means_[first + i].store(mean, std::memory_order_relaxed);
+    }
+  }
 
 private:
+  std::size_t MeanIndex(std::size_t cell, std::size_t light) const
+  {
+    return (this->FirstMean_[cell] + light) * this->Bands_;
+  }
+  double FindMean(std::size_t cell, std::size_t light, int band) const;
+  void Keep(std::size_t index, const Spectrum& mean) const;
+  /// Finds a light's means over cells that it is close to, by what it leaves there.
+  /// @param cells places among those that lights are near to
+  void Deposit(std::size_t light, const std::vector<std::size_t>& cells);
   /// Finds the cells near to a light; returns how far from it they reach [m].
   double FindCells(std::size_t light);
 
@@ -48,6 +84,12 @@ private:
   std::vector<Cell> Cells_;
   std::vector<std::int32_t> Places_;
   std::vector<std::unique_ptr<NearField>> Fields_;
+  std::size_t Bands_;
+  /// Lights of all cells before each.
+  std::vector<std::size_t> FirstMean_;
+  /// [cell][light][band]; NaN: not computed yet. They depend on the scene alone, so that it does
+  /// not matter which thread computes them.
+  mutable std::vector<std::atomic<float>> Means_;
 };
 
 } // namespace smokevis

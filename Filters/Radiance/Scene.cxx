@@ -3,10 +3,13 @@
 #include "CutCells.h"
 #include "Errors.h"
 #include "Exposure.h"
+#include "NearLights.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include <tbb/task_arena.h>
 
 namespace smokevis
 {
@@ -155,6 +158,20 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   {
     this->Smoke_.Divide(FindCellParts(*this));
   }
+}
+
+Scene::~Scene() = default;
+
+const NearLights& Scene::Near() const
+{
+  // Isolated: a thread that waits here must not take up work that asks for the same.
+  std::call_once(this->NearFound_,
+    [this]
+    {
+      tbb::this_task_arena::isolate(
+        [this] { this->Near_ = std::make_unique<const NearLights>(*this); });
+    });
+  return *this->Near_;
 }
 
 } // namespace smokevis

@@ -8,10 +8,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace smokevis
 {
+
+class NearLights;
 
 /// Plain description of a scene. Lengths in m, extinction in 1/m, luminance in cd/m2.
 struct SceneDescription
@@ -45,6 +48,7 @@ public:
   /// Throws Error where the description is not usable (what, where, what to do).
   /// @param earlier a scene whose search structures are taken over where its shapes are the same
   explicit Scene(SceneDescription description, const Scene* earlier = nullptr);
+  ~Scene();
 
   /// Whether they were.
   bool SharesShapes() const { return this->SharesShapes_; }
@@ -68,6 +72,9 @@ public:
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return *this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }
+  /// Lights near to smoke cells; found when they are first asked for, by all threads of the
+  /// caller's arena.
+  const NearLights& Near() const;
 
   /// Surface cells come first among the patches.
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
@@ -106,6 +113,8 @@ private:
   EmitterSet Lights_;
   std::shared_ptr<const Geometry> Shapes_;
   bool SharesShapes_ = false;
+  mutable std::once_flag NearFound_;
+  mutable std::unique_ptr<const NearLights> Near_;
   std::vector<double> PatchArea_;
   /// [patch][side].
   std::vector<double> ExposedArea_;

@@ -55,8 +55,7 @@ Lanes RayLight::TotalLanes() const
 struct View::Implementation
 {
   explicit Implementation(const Scene& scene, const LightField& field)
-      : TheScene(scene), Field(field), Direct(scene),
-        DirectFluence(scene, field, std::make_shared<const NearLights>(scene))
+      : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {

@@ -46,11 +46,9 @@ struct Solution
   double SetUpProcessors = 0.0;
   double FieldProcessors = 0.0;
 };
+/// A scene keeps what it found of its lights: each solution has one of its own.
 Solution Solve(
   const SceneDescription& description, double tolerance, std::uint64_t seed, int threads);
-/// The same for a scene that is set up already.
-Solution Solve(
-  std::shared_ptr<const Scene> scene, double tolerance, std::uint64_t seed, int threads);
 
 /// Runs body(i) for all i below count on so many threads (0: all).
 void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& body);

@@ -151,10 +151,13 @@ FloorMapOptions HallPlaces(int across, int along, int threads)
 
 //--------------------------------------------------------------------------------------------------
 Solution Solve(
-  std::shared_ptr<const Scene> scene, double tolerance, std::uint64_t seed, int threads)
+  const SceneDescription& description, double tolerance, std::uint64_t seed, int threads)
 {
   Solution solution;
-  solution.TheScene = std::move(scene);
+  const StopWatch setUp;
+  solution.TheScene = std::make_shared<const Scene>(description);
+  solution.SetUpSeconds = setUp.Seconds();
+  solution.SetUpProcessors = setUp.Processors();
   LightFieldOptions options;
   options.Tolerance = tolerance;
   options.Seed = seed;
@@ -166,20 +169,6 @@ Solution Solve(
   solution.TheView = std::make_unique<const View>(solution.TheScene, solution.Field);
   solution.FieldSeconds = watch.Seconds();
   solution.FieldProcessors = watch.Processors();
-  return solution;
-}
-
-//--------------------------------------------------------------------------------------------------
-Solution Solve(
-  const SceneDescription& description, double tolerance, std::uint64_t seed, int threads)
-{
-  const StopWatch watch;
-  auto scene = std::make_shared<const Scene>(description);
-  const double seconds = watch.Seconds();
-  const double processors = watch.Processors();
-  Solution solution = Solve(std::move(scene), tolerance, seed, threads);
-  solution.SetUpSeconds = seconds;
-  solution.SetUpProcessors = processors;
   return solution;
 }
 

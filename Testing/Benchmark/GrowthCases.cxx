@@ -126,7 +126,7 @@ void RunThreads(const Settings& settings)
 {
   ResultTable table(
     settings.Out + "/threads.csv", {"part", "one_thread_s", "two_threads_s", "ratio"});
-  const auto scene = std::make_shared<const Scene>(Hall(settings.Time));
+  const SceneDescription scene = Hall(settings.Time);
   std::array<double, 2> field{};
   std::array<double, 2> map{};
   for (const int threads : {1, 2})

@@ -70,10 +70,7 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
       "contrast_error", "largest_contrast_error", "visibility_error", "error_over_bar",
       "peak_MiB"});
   const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
-  const StopWatch setUp;
-  const auto scene =
-    std::make_shared<const Scene>(fine ? FineHall(settings.Time) : Hall(settings.Time));
-  const double setUpSeconds = setUp.Seconds();
+  const SceneDescription scene = fine ? FineHall(settings.Time) : Hall(settings.Time);
   Progress progress;
   FloorMap reference;
   if (settings.ReferenceTolerance > 0.0)
@@ -89,7 +86,7 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
     const double seconds = watch.Seconds();
     const double processors = solution.FieldProcessors + watch.Processors();
     std::vector<std::string> row = {Number(tolerance), Number(settings.Threads),
-      Number(setUpSeconds), Number(solution.FieldSeconds), Number(seconds),
+      Number(solution.SetUpSeconds), Number(solution.FieldSeconds), Number(seconds),
       Number(solution.FieldSeconds + seconds), Number(processors)};
     if (reference.Visibility.empty())
     {

@@ -41,12 +41,10 @@ std::string NameOf(double depth, double albedo, double reflectance)
 }
 
 // Every mix of smoke and walls that loses some light: finite, and what is emitted is absorbed.
-// Where a cell is a mean free path thick, Gauss points know the light right before a sign to half a
-// percent.
 TEST(Extremes, DepthAlbedoReflectance)
 {
   report::Head("Energy balance of closed boxes [lm]");
-  for (const double depth : {0.0, 1e-12, 1e-3, 1.0})
+  for (const double depth : {0.0, 1e-12, 1e-3, 1.0, 10.0})
   {
     for (const double albedo : {0.0, 1.0 - 1e-7, 1.0})
     {
@@ -59,9 +57,30 @@ TEST(Extremes, DepthAlbedoReflectance)
         stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
         const Estimate smoke = solved.AbsorbedInSmoke();
         const Estimate surfaces = solved.AbsorbedOnSurfaces();
-        report::Relative(name, EmittedPower(solved), smoke.Mean + surfaces.Mean,
-          depth >= 1.0 ? 0.005 : 0.001, std::hypot(smoke.StandardError, surfaces.StandardError));
+        report::Relative(name, EmittedPower(solved), smoke.Mean + surfaces.Mean, 0.001,
+          std::hypot(smoke.StandardError, surfaces.StandardError));
       }
+    }
+  }
+}
+
+// A lamp that hangs anywhere in thick cells: no point in them knows how steep its light is there.
+TEST(Extremes, LampInsideThickCells)
+{
+  report::Head("Energy balance of a closed box with a hanging lamp [lm]");
+  for (const double height : {0.99, 0.95, 0.9, 0.85})
+  {
+    for (const double depth : {0.015, 0.03, 0.25, 1.0, 4.0, 100.0})
+    {
+      const std::string name = "lamp at " + std::to_string(height) + ", " + NameOf(depth, 0.9, 0.5);
+      SCOPED_TRACE(name);
+      SceneDescription scene = ClosedBox(depth, 0.9, 0.5);
+      scene.Emitters = {scenes::Plate({0.6, 0.5, height}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1.0)};
+      const Solved solved(scene, 0.03);
+      const Estimate smoke = solved.AbsorbedInSmoke();
+      const Estimate surfaces = solved.AbsorbedOnSurfaces();
+      report::Relative(name, EmittedPower(solved), smoke.Mean + surfaces.Mean, 0.001,
+        std::hypot(smoke.StandardError, surfaces.StandardError));
     }
   }
 }

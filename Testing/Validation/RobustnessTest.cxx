@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace
 {
@@ -277,7 +278,20 @@ TEST(OddInput, Extremes)
         // White walls and nothing between them that absorbs would reflect without end.
         reflectance.fill(extinction < 1.0 ? 0.5 : 1.0);
       }
-      const Solved solved(scene);
+      std::optional<Solved> kept;
+      try
+      {
+        kept.emplace(scene);
+      }
+      catch (const Error& error)
+      {
+        // In white opaque smoke between white walls light takes a thousand million scatterings to
+        // come out: there is an answer, but a word that it was not reached will do.
+        EXPECT_TRUE(extinction > 1.0 && loss == 0.0) << error.what();
+        EXPECT_NE(std::string(error.what()).find("did not settle"), std::string::npos);
+        continue;
+      }
+      const Solved& solved = *kept;
       const SignMeasurement sign =
         MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
       EXPECT_TRUE(std::isfinite(sign.Contrast));

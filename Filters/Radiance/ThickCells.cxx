@@ -1,0 +1,155 @@
+#include "ThickCells.h"
+
+#include "GlobalLines.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// A cell is worth it where this share of what it sends on comes back, and a whole sweep's change
+/// would be multiplied by so much.
+constexpr double ThickShare = 0.5;
+constexpr float SmallestGain = 1.5F;
+/// Sweeps whose lines measure the cells, and how much larger than measured the share may be that
+/// leaves a cell: too large a gain would not converge.
+constexpr std::uint64_t Sweeps = 8;
+constexpr double Caution = 1.25;
+/// Key of the lines that measure.
+constexpr std::uint64_t Key = 0x7c3119;
+/// Points along each edge at which a cell is asked whether another mesh covers it.
+constexpr int CoverPoints = 3;
+
+/// Mean of (1 - exp(-x)) / x over the isotropic chords of a convex body, weighted by their lengths,
+/// from their mean depth: by Jensen's inequality none is larger.
+double LargestEscape(double depth)
+{
+  return depth > 0.0 ? -std::expm1(-depth) / depth : 1.0;
+}
+
+/// Whether a finer mesh lies over a part of the cell.
+bool Covered(const Medium& smoke, std::int64_t cell)
+{
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  for (int point = 0; point < CoverPoints * CoverPoints * CoverPoints; ++point)
+  {
+    const Vec3 index(
+      point % CoverPoints, point / CoverPoints % CoverPoints, point / (CoverPoints * CoverPoints));
+    const Vec3 share = (index + 0.5) / static_cast<double>(CoverPoints) - 0.5;
+    if (smoke.Locate(centre + share * size) != cell)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+ThickCells::ThickCells(
+  const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines)
+{
+  const Medium& smoke = scene.Smoke();
+  const auto returned = [&](double escape) { return scene.Albedo() * (1.0 - escape); };
+  std::vector<double> escapes(extinction.size());
+  bool any = false;
+  for (std::size_t i = 0; i < extinction.size(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i);
+    const double chord = 4.0 * smoke.CellVolume(cell) / BoxSurface(smoke.CellSize(cell));
+    escapes[i] = LargestEscape(extinction[i] * chord);
+    any = any || returned(escapes[i]) > ThickShare;
+  }
+  if (!any)
+  {
+    return;
+  }
+  const std::vector<double> measured = this->Escapes(scene, extinction, lines);
+  this->Orders_.assign(extinction.size(), 0.0F);
+  this->Meetings_.assign(extinction.size(), 0.0F);
+  for (std::size_t i = 0; i < extinction.size(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i);
+    const double escape = std::min(1.0, std::max(escapes[i], Caution * measured[i]));
+    if (!(returned(escape) > ThickShare) ||
+        (smoke.Parts().Find(cell) == nullptr && Covered(smoke, cell)))
+    {
+      continue;
+    }
+    this->Orders_[i] = static_cast<float>(1.0 / (1.0 - returned(escape)));
+    this->Meetings_[i] = static_cast<float>(lines.Meetings(BoxSurface(smoke.CellSize(cell)), true));
+  }
+}
+
+std::vector<double> ThickCells::Escapes(
+  const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines) const
+{
+  const std::size_t cells = extinction.size();
+  // A part of the lines each, summed up in their order: threads do not matter.
+  std::vector<std::vector<float>> lengths(Sweeps, std::vector<float>(cells, 0.0F));
+  std::vector<std::vector<float>> escaped = lengths;
+  tbb::parallel_for(std::uint64_t{0}, Sweeps,
+    [&](std::uint64_t sweep)
+    {
+      const GlobalLines::Draw draw(lines, Mix(Key) + sweep);
+      std::vector<Crossing> crossings;
+      std::vector<Segment> segments;
+      for (std::size_t i = 0; i < lines.Count(); ++i)
+      {
+        const GlobalLines::Line line = draw.Get(i);
+        scene.Shapes().Cross(line.Origin, line.Direction, 0.0, line.Length, crossings);
+        scene.Smoke().Walk(line.Origin, line.Direction, 0.0, line.Length, segments);
+        auto crossing = crossings.begin();
+        for (const Segment& segment : segments)
+        {
+          double begin = segment.Begin;
+          const auto add = [&](double end)
+          {
+            const double length = end - begin;
+            const std::int64_t cell = segment.Cell;
+            lengths[sweep][cell] += static_cast<float>(line.Weight * length);
+            escaped[sweep][cell] +=
+              static_cast<float>(line.Weight * length * LargestEscape(extinction[cell] * length));
+            begin = end;
+          };
+          for (; crossing != crossings.end() && crossing->Arrive.Distance < segment.End; ++crossing)
+          {
+            if (crossing->Arrive.Distance > begin)
+            {
+              add(crossing->Arrive.Distance);
+            }
+          }
+          add(segment.End);
+        }
+      }
+    });
+  std::vector<double> escapes(cells, 1.0);
+  for (std::size_t cell = 0; cell < cells; ++cell)
+  {
+    double length = 0.0;
+    double escape = 0.0;
+    for (std::uint64_t sweep = 0; sweep < Sweeps; ++sweep)
+    {
+      length += lengths[sweep][cell];
+      escape += escaped[sweep][cell];
+    }
+    escapes[cell] = length > 0.0 ? escape / length : 1.0;
+  }
+  return escapes;
+}
+
+std::size_t ThickCells::Count() const
+{
+  return this->Orders_.size() - std::count(this->Orders_.begin(), this->Orders_.end(), 0.0F);
+}
+
+} // namespace smokevis

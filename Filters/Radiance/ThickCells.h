@@ -1,0 +1,55 @@
+// Cells so thick and so white that nearly all they send on comes back to themselves.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smokevis
+{
+
+class GlobalLines;
+class Scene;
+
+/// Light stays in a thick white cell for so many orders of scattering that sweeps would not see the
+/// end of them: the share of its power that a cell gives to others in one sweep is small, but known
+/// beforehand. Divided by it, what comes in and goes out in a sweep tells where the cell's own
+/// orders end (Jacobi's iteration on the cells, instead of Picard's).
+class ThickCells
+{
+public:
+  ThickCells() = default;
+  /// @param extinction of each cell in the band [1/m]
+  /// @param lines of a whole sweep
+  ThickCells(const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines);
+
+  bool IsThick(std::size_t cell) const
+  {
+    return !this->Orders_.empty() && this->Orders_[cell] > 0.0F;
+  }
+  /// How many times what a sweep would change of a thick cell's fluence it is to change.
+  /// @param share of a whole sweep's lines that the sweep has
+  float Gain(std::size_t cell, float share) const
+  {
+    // Where few lines meet a cell, their lengths differ more than what they bring.
+    const float meetings = share * this->Meetings_[cell];
+    return meetings / (meetings + LengthVariance) * this->Orders_[cell];
+  }
+  /// How many of them there are.
+  std::size_t Count() const;
+
+private:
+  /// Share of what is scattered in each cell that leaves it or meets a surface before it is
+  /// scattered there again, 1 where lines tell nothing.
+  std::vector<double> Escapes(
+    const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines) const;
+
+  /// Variance of the length of all lines in a cell that one of them would meet, over its square.
+  static constexpr float LengthVariance = 1.5F;
+
+  /// Orders of scattering that light stays in a thick cell, 0 in others, and how many lines of a
+  /// whole sweep are expected to meet it.
+  std::vector<float> Orders_, Meetings_;
+};
+
+} // namespace smokevis
