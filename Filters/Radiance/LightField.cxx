@@ -69,13 +69,15 @@ private:
   void SolveMultiple(int band);
   /// Bound of the share of the direct light along lines of sight that all other light is.
   double LargestMultipleShare(int band) const;
-  int Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
-    std::vector<BatchState>& batches, std::uint64_t key);
+  int Settle(LineSweep& sweep, int band, const VeilProbes& probes, std::vector<BatchState>& batches,
+    std::uint64_t key);
   /// One sweep of this process's batches.
   /// @param meets whether all processes have the sums of all batches afterwards
   void Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std::uint64_t key, bool thin,
     bool meets);
   void ShareSums(std::vector<BatchState>& batches);
+  /// Lets the next sweep's sources vary inside the cells as the light does that all processes know.
+  void Follow(LineSweep& sweep, const std::vector<BatchState>& batches);
   bool BandsEqual(int a, int b) const;
   const DirectField& Inside();
   void CheckStop() const
@@ -127,6 +129,11 @@ void Solver::Sweep(const LineSweep& sweep, std::vector<BatchState>& batches, std
   }
 }
 
+void Solver::Follow(LineSweep& sweep, const std::vector<BatchState>& batches)
+{
+  this->Arena_.execute([&] { sweep.Follow(batches); });
+}
+
 void Solver::ShareSums(std::vector<BatchState>& batches)
 {
   // 64 bytes for each cell and each side of a patch, which is little against a sweep's work. The
@@ -144,7 +151,7 @@ void Solver::ShareSums(std::vector<BatchState>& batches)
   this->Team_.Share(parts);
 }
 
-int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
+int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
   std::vector<BatchState>& batches, std::uint64_t key)
 {
   const PowerBalance balance(this->Scene_, sweep, band);
@@ -159,6 +166,7 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
     this->Sweep(sweep, batches, key + done, true, true);
     left = std::pow(balance.SentAgain(batches), ++done);
     balance.ScaleLatest(batches);
+    this->Follow(sweep, batches);
     this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
   }
   restart();
@@ -176,6 +184,7 @@ int Solver::Settle(const LineSweep& sweep, int band, const VeilProbes& probes,
       ++done;
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
+    this->Follow(sweep, batches);
     BlockMeans now(batches, this->Scene_, this->Field_, band);
     const bool over = std::pow(balance.SentAgain(batches), before) < UncountedShare * limit;
     bool tolerable = false;
@@ -283,7 +292,7 @@ void Solver::SolveMultiple(int band)
       return;
     }
   }
-  const LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band, this->Options_.Tolerance);
+  LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band, this->Options_.Tolerance);
   if (!(sweep.FirstSource() > 0.0))
   {
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
@@ -341,7 +350,7 @@ void Solver::SolveMultiple(int band)
     [&]
     {
       std::tie(plates, rays) =
-        PlateGather(this->Scene_, this->Options_, this->Inside(), this->Field_, band)
+        PlateGather(this->Scene_, this->Options_, this->Inside(), sweep.Shape(), this->Field_, band)
           .Run(this->Team_, this->Progress_);
     });
   this->Say(name + "settling sweeps", settling,

@@ -136,10 +136,12 @@ struct LineSweep::Buffers
 {
   std::vector<Crossing> Crossings;
   std::vector<Segment> Segments;
-  /// Of each piece of the line: cell, length, tau = its optical depth, source luminance, exp(-tau),
-  /// (1 - exp(-tau)) / tau, and the luminance that it adds, (1 - exp(-tau)) times the source.
+  /// Of each piece of the line: cell, length, tau = its optical depth, mean source luminance and
+  /// its change from the piece's beginning to its end, exp(-tau), (1 - exp(-tau)) / tau, and the
+  /// luminance that it adds: (1 - exp(-tau)) times the source, and what the change adds along the
+  /// line and takes away against it.
   std::vector<std::int64_t> Cell;
-  std::vector<float> Length, Depth, Source, Transmittance, Escape, Added;
+  std::vector<float> Length, Depth, Source, Change, Transmittance, Escape, Added, Tilt;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
   /// By how much the radiances of both directions together, where they come in, exceed the source.
@@ -177,6 +179,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
     }
   }
   this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_);
+  this->Shape_ = SourceShape(scene, field, direct, band, this->Extinction_);
   this->CellCrossings_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
@@ -230,16 +233,33 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   buffers.Length.clear();
   buffers.Depth.clear();
   buffers.Source.clear();
+  buffers.Change.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  const bool flat = this->Shape_.Flat();
+  const Vec3 start = origin - smoke.Lower();
   const auto add = [&](std::int64_t cell, double begin, double end)
   {
     const LineTallies::Cell& own = tallies.Cells[cell];
+    const auto slope =
+      flat ? 0.0F
+           : static_cast<float>(own.Slope[0] * direction.x + own.Slope[1] * direction.y +
+                                own.Slope[2] * direction.z);
+    double at = begin;
     const auto addPart = [&](double part, float source)
     {
+      const auto size = static_cast<float>(part);
       buffers.Cell.push_back(cell);
-      buffers.Length.push_back(static_cast<float>(part));
-      buffers.Depth.push_back(own.Extinction * static_cast<float>(part));
+      buffers.Length.push_back(size);
+      buffers.Depth.push_back(own.Extinction * size);
+      if (!flat)
+      {
+        const Vec3 middle = start + (at + 0.5 * part) * direction;
+        source += static_cast<float>(
+          own.Offset + own.Slope[0] * middle.x + own.Slope[1] * middle.y + own.Slope[2] * middle.z);
+        at += part;
+        buffers.Change.push_back(slope * size);
+      }
       buffers.Source.push_back(source);
     };
     if (!this->Direct_.Varies(cell, this->Band_))
@@ -282,6 +302,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   buffers.Transmittance.resize(pieces);
   buffers.Escape.resize(pieces);
   buffers.Added.resize(pieces);
+  buffers.Tilt.assign(pieces, 0.0F);
   buffers.Excess.resize(pieces);
   for (std::size_t i = 0; i < pieces; ++i)
   {
@@ -293,6 +314,10 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
                           : (1.0F - transmittance) / depth;
     // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
     buffers.Added[i] = depth * buffers.Escape[i] * buffers.Source[i];
+    if (!flat)
+    {
+      buffers.Tilt[i] = buffers.Change[i] * SourceShape::Tilt(depth, buffers.Escape[i]);
+    }
   }
 
   const auto arrive = [&](const Hit& hit, float radiance)
@@ -309,7 +334,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
       buffers.Excess[i] = radiance - buffers.Source[i];
-      radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
+      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] + buffers.Tilt[i]);
     }
     if (part < crossings)
     {
@@ -324,7 +349,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
     {
       buffers.Excess[i] += radiance - buffers.Source[i];
-      radiance = radiance * buffers.Transmittance[i] + buffers.Added[i];
+      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] - buffers.Tilt[i]);
     }
     if (part > 0)
     {
@@ -364,8 +389,9 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
       this->Thick_.IsThick(cell) ? 2.0F * source
       : known                    ? scale * BothWays * fluence[cell]
                                  : 0.0F,
-      0.0F};
+      0.0F, {}, 0.0};
   }
+  this->ShapeSources(state, tallies);
   const std::vector<float>& illuminance = counted ? state.IlluminanceSum : state.Illuminance;
   tallies.ExpectedIlluminance.resize(illuminance.size());
   for (std::size_t side = 0; side < illuminance.size(); ++side)
@@ -375,6 +401,23 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   }
   tallies.Illuminance.assign(illuminance.size(), 0.0F);
   tallies.Escaped = 0.0;
+}
+
+void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) const
+{
+  for (const SourceShape::Shaped& shaped : this->Shape_.Cells())
+  {
+    LineTallies::Cell& cell = tallies.Cells[shaped.Index];
+    const float source =
+      this->Scatter_ * (state.Fluence[shaped.Index] +
+                         (shaped.DirectVaries ? 0.0F : this->DirectFluence_[shaped.Index]));
+    const Vec3 centre = shaped.Centre - this->Scene_.Smoke().Lower();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell.Slope[axis] = source * shaped.Change[axis];
+      cell.Offset -= cell.Slope[axis] * centre[axis];
+    }
+  }
 }
 
 void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState& state) const

@@ -4,6 +4,7 @@
 #include "GlobalLines.h"
 #include "LightField.h"
 #include "Scene.h"
+#include "SourceShape.h"
 #include "ThickCells.h"
 
 #include <cstdint>
@@ -42,6 +43,10 @@ struct LineTallies
     float Source, Extinction;
     /// Radiance of both directions that is expected along a line, and the tally of what differs.
     float Expected, Fluence;
+    /// Slopes of the luminance along the axes [cd/m3], and what it differs by at the smoke's lower
+    /// corner, continued [cd/m2].
+    SourceShape::Slope Slope;
+    double Offset;
   };
   std::vector<Cell> Cells;
   std::vector<float> Illuminance;
@@ -66,6 +71,11 @@ public:
 
   /// Lines that cross each cell about 1.5 times, or less often where little is asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
+  /// Lets the sources vary inside the cells as the means of the batches' sums do.
+  void Follow(const std::vector<BatchState>& batches) { this->Shape_.Follow(batches); }
+
+  const SourceShape& Shape() const { return this->Shape_; }
+
   const ThickCells& Thick() const { return this->Thick_; }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
@@ -92,6 +102,8 @@ public:
 private:
   struct Buffers;
 
+  /// Gives the sources of the cells their shapes.
+  void ShapeSources(const BatchState& state, LineTallies& tallies) const;
   /// Empties the tallies, and expects the light that is known so far of the cells and patches where
   /// that tells something.
   void Prepare(const BatchState& state, LineTallies& tallies) const;
@@ -122,6 +134,7 @@ private:
   std::vector<float> Emission_;
   GlobalLines ThinLines_, Lines_;
   ThickCells Thick_;
+  SourceShape Shape_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
 };

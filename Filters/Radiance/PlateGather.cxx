@@ -3,6 +3,7 @@
 #include "DirectField.h"
 #include "Errors.h"
 #include "Sampler.h"
+#include "SourceShape.h"
 #include "Team.h"
 
 #include <algorithm>
@@ -28,8 +29,8 @@ constexpr double DeepestDepth = 20.0;
 } // namespace
 
 PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
-  const DirectField& direct, LightField& field, int band)
-    : Scene_(scene), Options_(options), Direct_(direct), Field_(field), Band_(band)
+  const DirectField& direct, const SourceShape& shape, LightField& field, int band)
+    : Scene_(scene), Options_(options), Direct_(direct), Shape_(shape), Field_(field), Band_(band)
 {
   this->LargestPlate_ = LargestShare * BoxSurface(scene.Upper() - scene.Lower());
 }
@@ -158,12 +159,28 @@ double PlateGather::Radiance(
     const double multiple =
       this->Field_.MultipleFluence[this->Field_.CellIndex(this->Band_, segment.Cell)][batch];
     const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
+    const double mean =
+      this->Field_.DirectFluence[this->Field_.CellIndex(this->Band_, segment.Cell)];
+    // The source varies as it does for lines.
+    const SourceShape::Shaped* shape = this->Shape_.Find(segment.Cell);
+    const double shaped = shape ? multiple + (shape->DirectVaries ? 0.0 : mean) : 0.0;
+    const Vec3 slope =
+      shape ? shaped * Vec3(shape->Change[0], shape->Change[1], shape->Change[2]) : Vec3(0.0);
+    const Vec3 centre = shape ? shape->Centre : Vec3(0.0);
+    double at = segment.Begin;
     const auto add = [&](double length, double direct)
     {
       const double own = extinction * length;
-      const double source = albedo / (4.0 * glm::pi<double>()) * (direct + multiple) + emitted;
-      sum += std::exp(-depth) * -std::expm1(-own) * source;
+      const double shift = glm::dot(slope, origin + (at + 0.5 * length) * direction - centre);
+      const double escaping = -std::expm1(-own);
+      const double tilt = SourceShape::Tilt(
+        static_cast<float>(own), own > 0.0 ? static_cast<float>(escaping / own) : 1.0F);
+      const double scattered =
+        escaping * (direct + multiple + shift) - tilt * glm::dot(slope, direction) * length;
+      sum +=
+        std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * scattered + escaping * emitted);
       depth += own;
+      at += length;
     };
     if (this->Direct_.Varies(segment.Cell, this->Band_))
     {
@@ -172,8 +189,7 @@ double PlateGather::Radiance(
     }
     else
     {
-      add(segment.End - segment.Begin,
-        this->Field_.DirectFluence[this->Field_.CellIndex(this->Band_, segment.Cell)]);
+      add(segment.End - segment.Begin, mean);
     }
     if (depth > DeepestDepth)
     {

@@ -8,6 +8,7 @@ namespace smokevis
 {
 
 class DirectField;
+class SourceShape;
 class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
@@ -20,7 +21,7 @@ public:
   /// @param direct is the direct light in the smoke
   /// @param field holds all light of the band; receives the new illuminances of fronts
   PlateGather(const Scene& scene, const LightFieldOptions& options, const DirectField& direct,
-    LightField& field, int band);
+    const SourceShape& shape, LightField& field, int band);
 
   /// All plates, in parallel. Returns how many were gathered, and how many rays that took. Throws
   /// Error when it is stopped.
@@ -41,6 +42,7 @@ private:
   const Scene& Scene_;
   const LightFieldOptions& Options_;
   const DirectField& Direct_;
+  const SourceShape& Shape_;
   LightField& Field_;
   int Band_;
   /// A sign whose area is larger is a wall [m2].

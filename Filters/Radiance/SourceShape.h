@@ -1,0 +1,84 @@
+// How what smoke sends on varies inside its cells, as random lines carry it.
+#pragma once
+
+#include "Types.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smokevis
+{
+
+class DirectField;
+class Scene;
+struct BatchState;
+struct LightField;
+
+/// Light falls off inside a cell by the more the thicker its smoke. A source that is flat in each
+/// cell lets too much of it through: a fifth too much through five cells of a mean free path. Here
+/// it is linear along each axis, as the mean of all batches falls off between the neighbours; its
+/// mean over the cell stays what it is.
+class SourceShape
+{
+public:
+  SourceShape() = default;
+  /// @param field holds the direct light of all cells, direct that inside the cells; both must
+  /// outlive this
+  /// @param extinction of each cell in the band [1/m]
+  SourceShape(const Scene& scene, const LightField& field, const DirectField& direct, int band,
+    const std::vector<float>& extinction);
+
+  /// Takes the shapes from the means of the batches' sums.
+  void Follow(const std::vector<BatchState>& batches);
+
+  /// Whether no cell is thick enough for its shape to matter.
+  bool Flat() const { return this->Places_.empty(); }
+  /// Relative change of a cell's source along each axis [1/m].
+  using Slope = std::array<float, 3>;
+  /// A cell whose source has a shape.
+  struct Shaped
+  {
+    std::int64_t Index = 0;
+    Vec3 Centre{0.0};
+    /// Whether direct light is known inside the cell: the shape is that of the rest.
+    bool DirectVaries = false;
+    Slope Change{};
+  };
+  const std::vector<Shaped>& Cells() const { return this->Cells_; }
+  /// Its shape, or none.
+  const Shaped* Find(std::size_t cell) const
+  {
+    const std::int32_t place = this->Places_.empty() ? -1 : this->Places_[cell];
+    return place < 0 ? nullptr : &this->Cells_[place];
+  }
+  /// What a source adds that rises along a piece of a ray by 1 and is 0 in its middle, at the
+  /// piece's end; at its beginning, looking along the ray, as much is missing.
+  /// @param depth of the piece
+  /// @param escape (1 - exp(-depth)) / depth
+  static float Tilt(float depth, float escape)
+  {
+    return depth < 0.1F ? depth * depth * (1.0F / 12.0F - depth * (1.0F / 24.0F))
+                        : 1.0F - escape * (1.0F + 0.5F * depth);
+  }
+
+private:
+  struct Neighbours
+  {
+    /// On the low and the high side along each axis; the cell itself where a surface is between.
+    std::array<std::array<std::int32_t, 2>, 3> Others;
+    /// 1 / distance between their centres, 0 where there is none [1/m].
+    std::array<float, 3> Inverse;
+    /// Half the cell's edges [m].
+    std::array<float, 3> Half;
+  };
+
+  const float* DirectFluence_ = nullptr;
+  std::vector<Shaped> Cells_;
+  std::vector<Neighbours> Neighbours_;
+  /// Place of each cell among them, or -1.
+  std::vector<std::int32_t> Places_;
+};
+
+} // namespace smokevis
