@@ -368,6 +368,11 @@ void Solver::SolveMultiple(int band)
       static_cast<double>(this->LinesABatch_ * own),
       "it sweeps " + std::to_string(own) + " of " + std::to_string(Batches) + " batches");
   }
+  if (const std::size_t thick = sweep.Thick().Count(); thick > 0)
+  {
+    this->Say(name + "thick cells", static_cast<double>(thick),
+      "what they scatter to themselves is summed up, not swept");
+  }
   if (plates > 0)
   {
     this->Say(name + "rays gathered by signs", static_cast<double>(rays),
