@@ -238,13 +238,12 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
   const bool flat = this->Shape_.Flat();
   const Vec3 start = origin - smoke.Lower();
+  const std::array<float, 3> along = {static_cast<float>(direction.x),
+    static_cast<float>(direction.y), static_cast<float>(direction.z)};
   const auto add = [&](std::int64_t cell, double begin, double end)
   {
     const LineTallies::Cell& own = tallies.Cells[cell];
-    const auto slope =
-      flat ? 0.0F
-           : static_cast<float>(own.Slope[0] * direction.x + own.Slope[1] * direction.y +
-                                own.Slope[2] * direction.z);
+    const float slope = own.Slope[0] * along[0] + own.Slope[1] * along[1] + own.Slope[2] * along[2];
     double at = begin;
     const auto addPart = [&](double part, float source)
     {
@@ -255,8 +254,9 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
       if (!flat)
       {
         const Vec3 middle = start + (at + 0.5 * part) * direction;
-        source += static_cast<float>(
-          own.Offset + own.Slope[0] * middle.x + own.Slope[1] * middle.y + own.Slope[2] * middle.z);
+        source += own.Offset + own.Slope[0] * static_cast<float>(middle.x) +
+                  own.Slope[1] * static_cast<float>(middle.y) +
+                  own.Slope[2] * static_cast<float>(middle.z);
         at += part;
         buffers.Change.push_back(slope * size);
       }
@@ -389,7 +389,7 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
       this->Thick_.IsThick(cell) ? 2.0F * source
       : known                    ? scale * BothWays * fluence[cell]
                                  : 0.0F,
-      0.0F, {}, 0.0};
+      0.0F, {}, 0.0F};
   }
   this->ShapeSources(state, tallies);
   const std::vector<float>& illuminance = counted ? state.IlluminanceSum : state.Illuminance;
@@ -412,11 +412,13 @@ void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) cons
       this->Scatter_ * (state.Fluence[shaped.Index] +
                          (shaped.DirectVaries ? 0.0F : this->DirectFluence_[shaped.Index]));
     const Vec3 centre = shaped.Centre - this->Scene_.Smoke().Lower();
+    double offset = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
       cell.Slope[axis] = source * shaped.Change[axis];
-      cell.Offset -= cell.Slope[axis] * centre[axis];
+      offset -= cell.Slope[axis] * centre[axis];
     }
+    cell.Offset = static_cast<float>(offset);
   }
 }
 

@@ -37,7 +37,7 @@ struct BatchState
 struct LineTallies
 {
   /// All that a line needs of a cell: it lies together, since lines meet cells far apart.
-  struct Cell
+  struct alignas(32) Cell
   {
     /// Luminance of what the cell sends on and emits [cd/m2], and its extinction coefficient [1/m].
     float Source, Extinction;
@@ -46,7 +46,7 @@ struct LineTallies
     /// Slopes of the luminance along the axes [cd/m3], and what it differs by at the smoke's lower
     /// corner, continued [cd/m2].
     SourceShape::Slope Slope;
-    double Offset;
+    float Offset;
   };
   std::vector<Cell> Cells;
   std::vector<float> Illuminance;
