@@ -136,12 +136,15 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 
 DirectField::DirectField(const Scene& scene, const LightField& field)
     : Scene_(scene), Field_(field), Direct_(scene), Open_(scene), Cells_(field.Cells),
-      Means_(field.DirectFluence), Shapes_(field.Bands), Lights_(scene.Near())
+      Means_(field.DirectFluence), Shapes_(field.Bands)
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
   {
     return;
   }
+  this->Lights_ = &scene.Near();
+  tbb::parallel_for(std::size_t{0}, scene.Lights().Lights().size(),
+    [this](std::size_t light) { this->Lights_->Deposit(light); });
   this->FindOthers();
   const auto alike = [this](std::int64_t cell, std::int64_t other)
   {
@@ -149,8 +152,8 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
     {
       return false;
     }
-    const auto& first = this->Lights_.Cells()[this->Lights_.Place(cell)].Lights;
-    const auto& second = this->Lights_.Cells()[this->Lights_.Place(other)].Lights;
+    const auto& first = this->Lights_->Cells()[this->Lights_->Place(cell)].Lights;
+    const auto& second = this->Lights_->Cells()[this->Lights_->Place(other)].Lights;
     return std::equal(first.begin(), first.end(), second.begin(), second.end(),
       [](const NearLights::Light& one, const NearLights::Light& two)
       { return one.Index == two.Index; });
@@ -171,7 +174,7 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
 
 void DirectField::FindOthers()
 {
-  const std::vector<NearLights::Cell>& cells = this->Lights_.Cells();
+  const std::vector<NearLights::Cell>& cells = this->Lights_->Cells();
   const std::size_t lights = this->Scene_.Lights().Lights().size();
   tbb::parallel_for(std::size_t{0}, cells.size(),
     [&](std::size_t i)
@@ -182,7 +185,7 @@ void DirectField::FindOthers()
         double others = mean;
         for (std::size_t light = 0; light < cells[i].Lights.size(); ++light)
         {
-          others -= this->Lights_.Mean(i, light, static_cast<int>(band));
+          others -= this->Lights_->Mean(i, light, static_cast<int>(band));
         }
         mean = cells[i].Lights.size() == lights || others < Rounding * mean
                  ? 0.0F
@@ -204,8 +207,8 @@ void DirectField::FindVarying()
       const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
                            this->Scene_.ExtinctionScale(static_cast<int>(band));
       const std::size_t index = band * this->Cells_ + i;
-      const int near = this->Lights_.Place(cell);
-      const bool close = near >= 0 && this->Lights_.Cells()[near].Close;
+      const int near = this->Lights_->Place(cell);
+      const bool close = near >= 0 && this->Lights_->Cells()[near].Close;
       // In the thickest cells pieces would not follow the light; means keep the balance of power.
       if (this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
           depth < MostPieces * PieceDepth)
@@ -240,17 +243,17 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const bool thick = this->Variation_[band * this->Cells_ + cell] == Variation::Thick;
-  const int index = this->Lights_.Place(cell);
-  const std::vector<NearLights::Light>& nearLights = this->Lights_.Cells()[index].Lights;
+  const int index = this->Lights_->Place(cell);
+  const std::vector<NearLights::Light>& nearLights = this->Lights_->Cells()[index].Lights;
   // Shadows and sharp beams would cost more than lines are worth, and what is not close is flat:
   // means do.
   const auto varies = [&](const NearLights::Light& light)
-  { return light.Clear && (light.Close || thick) && this->Lights_.Field(light.Index) != nullptr; };
+  { return light.Clear && (light.Close || thick) && this->Lights_->Field(light.Index) != nullptr; };
   double sum = 0.0;
   double varying = 0.0;
   for (std::size_t i = 0; i < nearLights.size(); ++i)
   {
-    const double mean = this->Lights_.Mean(index, i, band);
+    const double mean = this->Lights_->Mean(index, i, band);
     (varies(nearLights[i]) ? varying : sum) += mean;
   }
   // One light stands for all that vary, as often as it has a share in their mean; where it was
@@ -258,7 +261,7 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
   double before = 0.0;
   for (std::size_t i = 0; i < nearLights.size(); ++i)
   {
-    const double mean = varies(nearLights[i]) ? this->Lights_.Mean(index, i, band) : 0.0;
+    const double mean = varies(nearLights[i]) ? this->Lights_->Mean(index, i, band) : 0.0;
     if (!(mean > 0.0) || place * varying >= before + mean)
     {
       before += mean;
@@ -267,7 +270,7 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
     const LightGroup& root = lights.Groups()[lights.Lights()[nearLights[i].Index]];
     const double share = std::clamp((place * varying - before) / mean, 0.0, 1.0);
     const auto [distance, step] = Equiangular(root, origin, direction).At(begin, end, share);
-    const NearField& field = *this->Lights_.Field(nearLights[i].Index);
+    const NearField& field = *this->Lights_->Field(nearLights[i].Index);
     return sum + varying / mean * step / (end - begin) *
                    field.Fluence(origin + distance * direction, band);
   }
@@ -279,10 +282,10 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
 {
   const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
-  for (const NearLights::Light& near : this->Lights_.Cells()[this->Lights_.Place(cell)].Lights)
+  for (const NearLights::Light& near : this->Lights_->Cells()[this->Lights_->Place(cell)].Lights)
   {
     const LightGroup& root = lights.Groups()[lights.Lights()[near.Index]];
-    const NearField* field = this->Lights_.Field(near.Index);
+    const NearField* field = this->Lights_->Field(near.Index);
     const Equiangular places(root, origin, direction);
     std::array<double, MostParts + 1> ends;
     const int parts = PartEnds(root, origin, direction, begin, end, extinction, ends);

@@ -54,7 +54,7 @@ public:
       visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
     }
   }
-  bool Near(std::int64_t cell) const { return this->Lights_.Place(cell) >= 0; }
+  bool Near(std::int64_t cell) const { return this->Lights_ && this->Lights_->Place(cell) >= 0; }
   /// Fluence of the lights near to a cell where it varies, at one place of a piece of a ray inside
   /// it, so weighted that its mean over uniform places is that along the piece [lx].
   /// @param place 0 to 1
@@ -83,7 +83,8 @@ private:
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;
   std::vector<CellShape> Shapes_;
-  const NearLights& Lights_;
+  /// None where no smoke scatters.
+  const NearLights* Lights_ = nullptr;
   /// Why the fluence varies inside a cell by more than a flat source may: a light is close to the
   /// cell, or its smoke is thick. [band][cell]
   enum class Variation : std::uint8_t

@@ -25,8 +25,9 @@ constexpr double WayTolerance = 0.004;
 /// Tasks for each thread between two reports of progress, so that none of them waits long for
 /// others.
 constexpr std::size_t TasksAThread = 8;
-/// Shares of the work that are expected to be done after the cells near to lights, after the parts
-/// of cells, and after all cells.
+/// Shares of the work that are expected to be done after the cells that plates touch, after others
+/// near to lights, after the parts of cells, and after all cells.
+constexpr double DepositShare = 0.1;
 constexpr double NearShare = 0.2;
 constexpr double PartShare = 0.4;
 constexpr double CellShare = 0.8;
@@ -119,7 +120,18 @@ void DirectSolve::NearCells()
 {
   const NearLights& near = this->Scene_.Near();
   const std::vector<NearLights::Cell>& cells = near.Cells();
-  this->ForOwn(cells.size(), 4, 0.0, NearShare,
+  const std::size_t lights = this->Scene_.Lights().Lights().size();
+  for (std::size_t light = 0; light < lights; ++light)
+  {
+    this->Arena_.execute([&] { near.Deposit(light); });
+    this->Progress_.Report(
+      this->Share_ * DepositShare * static_cast<double>(light + 1) / static_cast<double>(lights));
+    if (this->Progress_.ShouldStop())
+    {
+      throw Error("light field", "the work was stopped");
+    }
+  }
+  this->ForOwn(cells.size(), 4, DepositShare, NearShare,
     [&](std::size_t cell)
     {
       for (std::size_t light = 0; light < cells[cell].Lights.size(); ++light)

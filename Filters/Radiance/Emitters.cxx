@@ -301,8 +301,13 @@ void EmitterSet::BuildLights(double largestLight)
     for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
     {
       const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
-      lights[lightOf[i]].push_back(MakeLeaf(cell, this->Normals_[i], this->Laws_[i],
-        {vertices[0], vertices[v], vertices[v + 1], last}));
+      LightGroup leaf = MakeLeaf(
+        cell, this->Normals_[i], this->Laws_[i], {vertices[0], vertices[v], vertices[v + 1], last});
+      // Corners in one line span nothing.
+      if (leaf.Area > 1e-12 * this->Areas_[i])
+      {
+        lights[lightOf[i]].push_back(std::move(leaf));
+      }
     }
   }
   for (auto& [light, leaves] : lights)

@@ -292,7 +292,16 @@ void Solver::SolveMultiple(int band)
       return;
     }
   }
-  LineSweep sweep(this->Scene_, this->Field_, this->Inside(), band, this->Options_.Tolerance);
+  const DirectField& inside = this->Inside();
+  std::optional<LineSweep> made;
+  this->Arena_.execute(
+    [&]
+    {
+      made.emplace(
+        this->Scene_, this->Field_, inside, band, this->Options_.Tolerance, this->Progress_);
+    });
+  this->CheckStop();
+  LineSweep& sweep = *made;
   if (!(sweep.FirstSource() > 0.0))
   {
     this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
@@ -354,7 +363,7 @@ void Solver::SolveMultiple(int band)
           .Run(this->Team_, this->Progress_);
     });
   this->Say(name + "settling sweeps", settling,
-    "orders of scattering had to build up, first with a quarter of the lines");
+    "orders of scattering had to build up, first with fewer lines");
   this->Say(name + "counted sweeps", counted,
     "until the standard error of the veil along lines of sight met the tolerance");
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep.Lines()),

@@ -149,15 +149,14 @@ struct LineSweep::Buffers
 };
 
 LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectField& direct,
-  int band, double tolerance)
+  int band, double tolerance, const Progress& progress)
     : Scene_(scene), Direct_(direct),
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      ThinLines_(LinesFor(scene, band).Thinned(ThinShare)),
-      Lines_(
-        LinesFor(scene, band).Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0)))
+      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
 {
+  this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
@@ -178,7 +177,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
         static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
     }
   }
-  this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_);
+  this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_, progress);
   this->Shape_ = SourceShape(scene, field, direct, band, this->Extinction_);
   this->CellCrossings_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
@@ -426,6 +425,7 @@ void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState&
 {
   constexpr float isotropic = static_cast<float>(4.0 * glm::pi<double>());
   const auto albedo = static_cast<float>(this->Scene_.Albedo());
+  const auto loss = static_cast<float>(1.0 - this->Scene_.Albedo());
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
     const LineTallies::Cell& tally = tallies.Cells[cell];
@@ -434,8 +434,8 @@ void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState&
     {
       // Expected was what the cell sends out, less than single precision from what it holds.
       const float emission = this->Emission_.empty() ? 0.0F : isotropic * this->Emission_[cell];
-      const float residual = albedo * this->DirectFluence_[cell] + emission -
-                             (1.0F - albedo) * state.Fluence[cell] + change;
+      const float residual =
+        albedo * this->DirectFluence_[cell] + emission - loss * state.Fluence[cell] + change;
       state.FluenceSum[cell] += state.Fluence[cell] + residual;
       state.Fluence[cell] += this->Thick_.Gain(cell, share) * residual;
       continue;

@@ -66,8 +66,9 @@ public:
   /// @param field holds the direct light of all cells and patches
   /// @param direct the same fluence inside the cells; must outlive the sweep
   /// @param tolerance that is asked for; a large one needs fewer lines
+  /// @param progress tells when to stop: the sweep is of no use then
   LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band,
-    double tolerance);
+    double tolerance, const Progress& progress);
 
   /// Lines that cross each cell about 1.5 times, or less often where little is asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
@@ -132,7 +133,7 @@ private:
   std::vector<float> Extinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  GlobalLines ThinLines_, Lines_;
+  GlobalLines Lines_, ThinLines_;
   ThickCells Thick_;
   SourceShape Shape_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.

@@ -253,6 +253,34 @@ double Medium::CellVolume(std::int64_t cell) const
   return size.x * size.y * size.z;
 }
 
+double Medium::MeanChord(std::int64_t cell) const
+{
+  return 4.0 * this->CellVolume(cell) / BoxSurface(this->CellSize(cell));
+}
+
+bool Medium::Covered(std::int64_t cell) const
+{
+  if (!this->Overlap_)
+  {
+    return false;
+  }
+  // As many points along each edge; a part is covered where its cell is.
+  constexpr int points = 3;
+  const CellPart* part = this->Parts_.Find(cell);
+  const std::int64_t whole = part ? part->Cell : cell;
+  const Box box = this->BoxOf(whole);
+  for (int point = 0; point < points * points * points; ++point)
+  {
+    const Vec3 index(point % points, point / points % points, point / (points * points));
+    const Vec3 share = (index + 0.5) / static_cast<double>(points);
+    if (this->LocateInGrids(box.Lower + share * (box.Upper - box.Lower)) != whole)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 Vec3 Medium::CellSize(std::int64_t cell) const
 {
   if (const CellPart* part = this->Parts_.Find(cell))

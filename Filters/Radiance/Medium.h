@@ -71,6 +71,10 @@ public:
   /// Edges; of a part those of a box that is as far spread along each axis.
   Vec3 CellSize(std::int64_t cell) const;
   double CellVolume(std::int64_t cell) const;
+  /// Mean length of the isotropic chords of a convex cell, 4 V / S (Cauchy) [m].
+  double MeanChord(std::int64_t cell) const;
+  /// Whether a finer grid lies over a part of the cell.
+  bool Covered(std::int64_t cell) const;
   /// Of a whole cell of a grid.
   Box BoxOf(std::int64_t cell) const;
   /// The cell that holds a point, or -1 outside all smoke.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace smokevis
 {
@@ -35,7 +36,8 @@ double LongestEdge(const Vec3& size)
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
-    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()), Bands_(scene.Bands())
+    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()),
+      Touched_(Fields_.size()), Deposited_(Fields_.size()), Bands_(scene.Bands())
 {
   const Medium& smoke = scene.Smoke();
   const EmitterSet& lights = scene.Lights();
@@ -63,7 +65,11 @@ NearLights::NearLights(const Scene& scene)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
         const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
-        light.Close = root.Distance(smoke.CellCentre(cell.Index)) < CloseEdges * edge;
+        const double distance = root.Distance(smoke.CellCentre(cell.Index));
+        light.Close = distance < CloseEdges * edge;
+        light.Touches = distance < TouchEdges * edge &&
+                        smoke.Extinction(cell.Index) * scene.LargestScale() * edge > DepositDepth &&
+                        !smoke.Covered(cell.Index);
         cell.Close = cell.Close || light.Close;
       }
     });
@@ -78,44 +84,48 @@ NearLights::NearLights(const Scene& scene)
   {
     mean.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
   }
-  std::vector<std::vector<std::size_t>> close(this->Fields_.size());
   for (std::size_t cell = 0; cell < this->Cells_.size(); ++cell)
   {
     for (const Light& light : this->Cells_[cell].Lights)
     {
-      const std::int64_t index = this->Cells_[cell].Index;
-      const double edge = LongestEdge(smoke.CellSize(index));
-      const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
-      if (root.Distance(smoke.CellCentre(index)) < TouchEdges * edge &&
-          smoke.Extinction(index) * scene.LargestScale() * edge > DepositDepth)
+      if (light.Touches)
       {
-        close[light.Index].push_back(cell);
+        this->Touched_[light.Index].push_back(cell);
       }
     }
   }
-  tbb::parallel_for(
-    std::size_t{0}, close.size(), [&](std::size_t light) { this->Deposit(light, close[light]); });
 }
 
-void NearLights::Deposit(std::size_t light, const std::vector<std::size_t>& cells)
+void NearLights::Deposit(std::size_t light) const
 {
-  if (cells.empty())
+  const std::vector<std::size_t>& touched = this->Touched_[light];
+  const auto place = [&](std::size_t cell)
+  {
+    const std::vector<Light>& there = this->Cells_[cell].Lights;
+    const auto found = std::find_if(
+      there.begin(), there.end(), [light](const Light& near) { return near.Index == light; });
+    return this->MeanIndex(cell, found - there.begin());
+  };
+  if (touched.empty() ||
+      !std::isnan(this->Means_[place(touched.front())].load(std::memory_order_relaxed)))
   {
     return;
   }
-  std::vector<std::int64_t> indices;
-  for (const std::size_t cell : cells)
+  const auto run = [&]
   {
-    indices.push_back(this->Cells_[cell].Index);
-  }
-  const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, indices).Run();
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    const std::vector<Light>& there = this->Cells_[cells[i]].Lights;
-    const auto found = std::find_if(
-      there.begin(), there.end(), [light](const Light& near) { return near.Index == light; });
-    this->Keep(this->MeanIndex(cells[i], found - there.begin()), means[i]);
-  }
+    std::vector<std::int64_t> indices;
+    for (const std::size_t cell : touched)
+    {
+      indices.push_back(this->Cells_[cell].Index);
+    }
+    const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, indices).Run();
+    for (std::size_t i = touched.size(); i-- > 0;)
+    {
+      this->Keep(place(touched[i]), means[i]);
+    }
+  };
+  // Isolated: a thread that waits in there must not take up work that asks for the same.
+  std::call_once(this->Deposited_[light], [&run] { tbb::this_task_arena::isolate(run); });
 }
 
 void NearLights::Keep(std::size_t index, const Spectrum& mean) const
@@ -129,6 +139,11 @@ void NearLights::Keep(std::size_t index, const Spectrum& mean) const
 double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
 {
   const Light& near = this->Cells_[cell].Lights[light];
+  if (near.Touches)
+  {
+    this->Deposit(near.Index);
+    return this->Means_[this->MeanIndex(cell, light) + band].load(std::memory_order_relaxed);
+  }
   const Spectrum mean = this->Direct_.NearCellFluence(
     near.Index, this->Cells_[cell].Index, near.Clear, this->Fields_[near.Index].get());
   this->Keep(this->MeanIndex(cell, light), mean);
@@ -170,7 +185,8 @@ double NearLights::FindCells(std::size_t light)
         place = static_cast<std::int32_t>(this->Cells_.size());
         this->Cells_.push_back({cell, {}, false});
       }
-      this->Cells_[place].Lights.push_back({static_cast<std::uint32_t>(light), false});
+      this->Cells_[place].Lights.push_back(
+        {static_cast<std::uint32_t>(light), false, false, false});
       reach = std::max(reach, distance + 0.5 * glm::length(size));
     });
   return reach;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace smokevis
@@ -27,6 +28,8 @@ public:
     bool Clear = false;
     /// Whether it is so close that its fluence varies much inside the cell.
     bool Close = false;
+    /// Whether its plate touches the cell, so that the light itself tells what it leaves there.
+    bool Touches = false;
   };
   struct Cell
   {
@@ -53,6 +56,8 @@ public:
     return std::isnan(known) ? this->FindMean(cell, light, band) : known;
   }
 
+  /// Finds the means of a light over the cells that its plate touches, unless they are known.
+  void Deposit(std::size_t light) const;
   /// Calls take(mean) for all means over a cell as they are kept, NaN where they are not computed
   /// yet, and keeps what it makes of them.
   template <class Take> void ForEachMean(std::size_t cell, Take&& take) const
@@ -73,9 +78,6 @@ private:
   }
   double FindMean(std::size_t cell, std::size_t light, int band) const;
   void Keep(std::size_t index, const Spectrum& mean) const;
-  /// Finds a light's means over cells that it is close to, by what it leaves there.
-  /// @param cells places among those that lights are near to
-  void Deposit(std::size_t light, const std::vector<std::size_t>& cells);
   /// Finds the cells near to a light; returns how far from it they reach [m].
   double FindCells(std::size_t light);
 
@@ -84,6 +86,9 @@ private:
   std::vector<Cell> Cells_;
   std::vector<std::int32_t> Places_;
   std::vector<std::unique_ptr<NearField>> Fields_;
+  /// Cells that each light's plate touches, as places among the cells.
+  std::vector<std::vector<std::size_t>> Touched_;
+  mutable std::vector<std::once_flag> Deposited_;
   std::size_t Bands_;
   /// Lights of all cells before each.
   std::vector<std::size_t> FirstMean_;

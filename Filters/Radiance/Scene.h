@@ -39,9 +39,9 @@ struct SceneDescription
   bool operator==(const SceneDescription&) const = default;
 };
 
-/// A scene made ready: search structures built, input checked. Immutable and safe to share between
-/// threads. The radiating elements ("patches") are the surface cells followed by the emitter cells;
-/// each has a front side (0) and a back side (1).
+/// A scene made ready: search structures built, input checked. To all appearances immutable, and
+/// safe to share between threads. The radiating elements ("patches") are the surface cells followed
+/// by the emitter cells; each has a front side (0) and a back side (1).
 class Scene
 {
 public:

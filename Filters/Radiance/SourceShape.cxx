@@ -32,9 +32,8 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
-    const double chord = 4.0 * smoke.CellVolume(cell) / BoxSurface(smoke.CellSize(cell));
-    const double depth = extinction[i] * chord;
-    if (scene.Albedo() * depth > ThinnestDepth && depth < ThickestDepth)
+    const double depth = extinction[i] * smoke.MeanChord(cell);
+    if (scene.Albedo() * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
     {
       places[i] = count++;
     }

@@ -1,12 +1,12 @@
 #include "ThickCells.h"
 
 #include "GlobalLines.h"
+#include "Progress.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 namespace smokevis
@@ -25,8 +25,6 @@ constexpr std::uint64_t Sweeps = 8;
 constexpr double Caution = 1.25;
 /// Key of the lines that measure.
 constexpr std::uint64_t Key = 0x7c3119;
-/// Points along each edge at which a cell is asked whether another mesh covers it.
-constexpr int CoverPoints = 3;
 
 /// Mean of (1 - exp(-x)) / x over the isotropic chords of a convex body, weighted by their lengths,
 /// from their mean depth: by Jensen's inequality none is larger.
@@ -35,28 +33,10 @@ double LargestEscape(double depth)
   return depth > 0.0 ? -std::expm1(-depth) / depth : 1.0;
 }
 
-/// Whether a finer mesh lies over a part of the cell.
-bool Covered(const Medium& smoke, std::int64_t cell)
-{
-  const Vec3 centre = smoke.CellCentre(cell);
-  const Vec3 size = smoke.CellSize(cell);
-  for (int point = 0; point < CoverPoints * CoverPoints * CoverPoints; ++point)
-  {
-    const Vec3 index(
-      point % CoverPoints, point / CoverPoints % CoverPoints, point / (CoverPoints * CoverPoints));
-    const Vec3 share = (index + 0.5) / static_cast<double>(CoverPoints) - 0.5;
-    if (smoke.Locate(centre + share * size) != cell)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 } // namespace
 
-ThickCells::ThickCells(
-  const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines)
+ThickCells::ThickCells(const Scene& scene, const std::vector<float>& extinction,
+  const GlobalLines& lines, const Progress& progress)
 {
   const Medium& smoke = scene.Smoke();
   const auto returned = [&](double escape) { return scene.Albedo() * (1.0 - escape); };
@@ -65,7 +45,7 @@ ThickCells::ThickCells(
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
-    const double chord = 4.0 * smoke.CellVolume(cell) / BoxSurface(smoke.CellSize(cell));
+    const double chord = smoke.MeanChord(cell);
     escapes[i] = LargestEscape(extinction[i] * chord);
     any = any || returned(escapes[i]) > ThickShare;
   }
@@ -73,15 +53,14 @@ ThickCells::ThickCells(
   {
     return;
   }
-  const std::vector<double> measured = this->Escapes(scene, extinction, lines);
+  const std::vector<double> measured = Escapes(scene, extinction, lines, progress);
   this->Orders_.assign(extinction.size(), 0.0F);
   this->Meetings_.assign(extinction.size(), 0.0F);
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
     const double escape = std::min(1.0, std::max(escapes[i], Caution * measured[i]));
-    if (!(returned(escape) > ThickShare) ||
-        (smoke.Parts().Find(cell) == nullptr && Covered(smoke, cell)))
+    if (!(returned(escape) > ThickShare) || smoke.Covered(cell))
     {
       continue;
     }
@@ -90,8 +69,8 @@ ThickCells::ThickCells(
   }
 }
 
-std::vector<double> ThickCells::Escapes(
-  const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines) const
+std::vector<double> ThickCells::Escapes(const Scene& scene, const std::vector<float>& extinction,
+  const GlobalLines& lines, const Progress& progress)
 {
   const std::size_t cells = extinction.size();
   // A part of the lines each, summed up in their order: threads do not matter.
@@ -105,6 +84,10 @@ std::vector<double> ThickCells::Escapes(
       std::vector<Segment> segments;
       for (std::size_t i = 0; i < lines.Count(); ++i)
       {
+        if (i % 256 == 0 && progress.ShouldStop())
+        {
+          return;
+        }
         const GlobalLines::Line line = draw.Get(i);
         scene.Shapes().Cross(line.Origin, line.Direction, 0.0, line.Length, crossings);
         scene.Smoke().Walk(line.Origin, line.Direction, 0.0, line.Length, segments);

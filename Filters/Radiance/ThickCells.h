@@ -9,6 +9,7 @@ namespace smokevis
 {
 
 class GlobalLines;
+class Progress;
 class Scene;
 
 /// Light stays in a thick white cell for so many orders of scattering that sweeps would not see the
@@ -21,7 +22,9 @@ public:
   ThickCells() = default;
   /// @param extinction of each cell in the band [1/m]
   /// @param lines of a whole sweep
-  ThickCells(const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines);
+  /// @param progress tells when to stop; what was found by then is of no use
+  ThickCells(const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines,
+    const Progress& progress);
 
   bool IsThick(std::size_t cell) const
   {
@@ -41,8 +44,8 @@ public:
 private:
   /// Share of what is scattered in each cell that leaves it or meets a surface before it is
   /// scattered there again, 1 where lines tell nothing.
-  std::vector<double> Escapes(
-    const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines) const;
+  static std::vector<double> Escapes(const Scene& scene, const std::vector<float>& extinction,
+    const GlobalLines& lines, const Progress& progress);
 
   /// Variance of the length of all lines in a cell that one of them would meet, over its square.
   static constexpr float LengthVariance = 1.5F;

@@ -28,8 +28,8 @@ public:
   /// light (or over a floor where there is next to none), from the running means of the batches.
   double RelativeError(const std::vector<BatchState>& batches) const;
 
-  /// The largest ratio, over the probes, of what is not direct to the direct light along a probe; no
-  /// floor, since a place in the dark beside a bright one may be all that is seen.
+  /// The largest ratio, over the probes, of what is not direct to the direct light along a probe;
+  /// no floor, since a place in the dark beside a bright one may be all that is seen.
   /// @param fluence a cell's, of what is not direct [lx]
   /// @param illuminance any surface's, of what is not direct [lx]
   double LargestShare(const std::function<double(std::int64_t)>& fluence, double illuminance) const;
