@@ -13,11 +13,11 @@ report()
 report "VTK or ParaView headers below the VTK layer" \
   "$(grep -rnE '#include *[<"](vtk|pq)' Filters/Radiance Readers/Formats Readers/CAD)"
 report "Embree outside Filters/Radiance/Geometry" \
-  "$(grep -rnE 'embree[34]/|\brtc[A-Z]' Display Filters Readers Plugin --include='*.h' --include='*.cxx' |
+  "$(grep -rnE 'embree[34]/|\brtc[A-Z]' Filters Readers Plugin --include='*.h' --include='*.cxx' |
     grep -vE '^Filters/Radiance/Geometry\.(h|cxx):')"
 report "CAD libraries outside Readers/CAD" \
   "$(grep -rnE '#include *[<"](assimp/|(BRep|XCAF|STEP|IGES|TopoDS|Message_))' \
-    Display Filters Readers Plugin --include='*.h' --include='*.cxx' |
+    Filters Readers Plugin --include='*.h' --include='*.cxx' |
     grep -vE '^Readers/CAD/')"
 report "The solver knows of file formats, or the file formats of the solver's scene" \
   "$(grep -rnE '#include "(SmvFile|SliceFile)' Filters/Radiance
