@@ -20,8 +20,9 @@ constexpr double SteepestChange = 4.0;
 
 } // namespace
 
-CellShape::CellShape(const Scene& scene, const OpenFaces& open, const Means& means)
+CellShape::CellShape(const Scene& scene, const Means& means)
 {
+  const OpenFaces& open = scene.Open();
   const Medium& smoke = scene.Smoke();
   this->Slopes_.resize(smoke.Cells());
   this->Lower_ = smoke.Lower();
@@ -37,12 +38,8 @@ CellShape::CellShape(const Scene& scene, const OpenFaces& open, const Means& mea
       std::array<double, 2> place = {centre[axis], centre[axis]};
       for (int side = 0; side < 2; ++side)
       {
-        if (!open.Open(cell, axis, side))
-        {
-          continue;
-        }
-        const std::int64_t other = smoke.Neighbour(cell, axis, side);
-        const float there = means(cell, other);
+        const std::int64_t other = open.Neighbour(cell, axis, side);
+        const float there = other < 0 ? 0.0F : means(cell, other);
         if (there > 0.0F)
         {
           value[side] = there;

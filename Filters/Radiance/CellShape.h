@@ -10,7 +10,6 @@
 namespace smokevis
 {
 
-class OpenFaces;
 class Scene;
 
 /// Light falls off exponentially in smoke, so that the logarithm of a field is taken to vary
@@ -23,7 +22,7 @@ public:
 
   /// A field that does not vary.
   CellShape() = default;
-  CellShape(const Scene& scene, const OpenFaces& open, const Means& means);
+  CellShape(const Scene& scene, const Means& means);
 
   /// Value at a point of a cell over the mean there.
   double Value(std::int64_t cell, const Vec3& point) const

@@ -135,7 +135,7 @@ int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction,
 } // namespace
 
 DirectField::DirectField(const Scene& scene, const LightField& field)
-    : Scene_(scene), Field_(field), Direct_(scene), Open_(scene), Cells_(field.Cells),
+    : Scene_(scene), Field_(field), Direct_(scene), Cells_(field.Cells),
       Means_(field.DirectFluence), Shapes_(field.Bands)
 {
   if (scene.Smoke().Empty() || scene.Albedo() == 0.0)
@@ -163,7 +163,7 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
   {
     const float* all = field.DirectFluence.data() + field.CellIndex(band, 0);
     const float* others = this->Means_.data() + field.CellIndex(band, 0);
-    this->Shapes_[band] = CellShape(scene, this->Open_,
+    this->Shapes_[band] = CellShape(scene,
       [&](std::int64_t cell, std::int64_t other)
       {
         // Without its near lights, a cell is like those that lack the same.

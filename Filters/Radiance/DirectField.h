@@ -6,7 +6,6 @@
 #include "DirectLight.h"
 #include "LightField.h"
 #include "NearLights.h"
-#include "OpenFaces.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,8 +21,6 @@ class DirectField
 public:
   /// @param field holds the direct fluence of all cells; must outlive this
   DirectField(const Scene& scene, const LightField& field);
-
-  const OpenFaces& Open() const { return this->Open_; }
 
   /// Fluence at a point of a cell of the lights that are not near to it [lx].
   double Smooth(std::int64_t cell, const Vec3& point, int band) const
@@ -78,7 +75,6 @@ private:
   const Scene& Scene_;
   const LightField& Field_;
   DirectLight Direct_;
-  OpenFaces Open_;
   std::size_t Cells_;
   /// Fluence of the lights that are not near [lx]: [band][cell].
   std::vector<float> Means_;

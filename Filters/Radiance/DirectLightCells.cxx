@@ -109,17 +109,15 @@ std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t
   {
     return std::nullopt;
   }
-  const std::vector<NearLights::Light>& there = this->Near_->Cells()[place].Lights;
-  const auto found = std::find_if(there.begin(), there.end(),
-    [light](const NearLights::Light& near) { return near.Index == light; });
-  if (found == there.end())
+  const int near = this->Near_->Find(place, light);
+  if (near < 0)
   {
     return std::nullopt;
   }
   Spectrum mean{};
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    mean[band] = this->Near_->Mean(place, found - there.begin(), band);
+    mean[band] = this->Near_->Mean(place, near, band);
   }
   return mean;
 }

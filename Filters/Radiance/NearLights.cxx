@@ -7,7 +7,6 @@
 #include <limits>
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace smokevis
 {
@@ -96,36 +95,35 @@ NearLights::NearLights(const Scene& scene)
   }
 }
 
+int NearLights::Find(std::size_t cell, std::size_t light) const
+{
+  const std::vector<Light>& there = this->Cells_[cell].Lights;
+  const auto found = std::find_if(
+    there.begin(), there.end(), [light](const Light& near) { return near.Index == light; });
+  return found == there.end() ? -1 : static_cast<int>(found - there.begin());
+}
+
 void NearLights::Deposit(std::size_t light) const
 {
-  const std::vector<std::size_t>& touched = this->Touched_[light];
-  const auto place = [&](std::size_t cell)
-  {
-    const std::vector<Light>& there = this->Cells_[cell].Lights;
-    const auto found = std::find_if(
-      there.begin(), there.end(), [light](const Light& near) { return near.Index == light; });
-    return this->MeanIndex(cell, found - there.begin());
-  };
-  if (touched.empty() ||
-      !std::isnan(this->Means_[place(touched.front())].load(std::memory_order_relaxed)))
-  {
-    return;
-  }
-  const auto run = [&]
-  {
-    std::vector<std::int64_t> indices;
-    for (const std::size_t cell : touched)
+  tbb::collaborative_call_once(this->Deposited_[light],
+    [&]
     {
-      indices.push_back(this->Cells_[cell].Index);
-    }
-    const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, indices).Run();
-    for (std::size_t i = touched.size(); i-- > 0;)
-    {
-      this->Keep(place(touched[i]), means[i]);
-    }
-  };
-  // Isolated: a thread that waits in there must not take up work that asks for the same.
-  std::call_once(this->Deposited_[light], [&run] { tbb::this_task_arena::isolate(run); });
+      const std::vector<std::size_t>& touched = this->Touched_[light];
+      if (touched.empty())
+      {
+        return;
+      }
+      std::vector<std::int64_t> cells;
+      for (const std::size_t cell : touched)
+      {
+        cells.push_back(this->Cells_[cell].Index);
+      }
+      const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, cells).Run();
+      for (std::size_t i = 0; i < touched.size(); ++i)
+      {
+        this->Keep(this->MeanIndex(touched[i], this->Find(touched[i], light)), means[i]);
+      }
+    });
 }
 
 void NearLights::Keep(std::size_t index, const Spectrum& mean) const

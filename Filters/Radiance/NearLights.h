@@ -8,8 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <vector>
+
+#include <tbb/collaborative_call_once.h>
 
 namespace smokevis
 {
@@ -56,7 +57,9 @@ public:
     return std::isnan(known) ? this->FindMean(cell, light, band) : known;
   }
 
-  /// Finds the means of a light over the cells that its plate touches, unless they are known.
+  /// Place of a light among those near to a cell, or -1.
+  int Find(std::size_t cell, std::size_t light) const;
+  /// Finds the means of a light over the cells that its plate touches, once.
   void Deposit(std::size_t light) const;
   /// Calls take(mean) for all means over a cell as they are kept, NaN where they are not computed
   /// yet, and keeps what it makes of them.
@@ -88,7 +91,7 @@ private:
   std::vector<std::unique_ptr<NearField>> Fields_;
   /// Cells that each light's plate touches, as places among the cells.
   std::vector<std::vector<std::size_t>> Touched_;
-  mutable std::vector<std::once_flag> Deposited_;
+  mutable std::vector<tbb::collaborative_once_flag> Deposited_;
   std::size_t Bands_;
   /// Lights of all cells before each.
   std::vector<std::size_t> FirstMean_;

@@ -35,7 +35,7 @@ OpenFaces::OpenFaces(const Scene& scene)
       smoke.ForCellsIn(glm::min(a, glm::min(b, c)) - gap, glm::max(a, glm::max(b, c)) + gap,
         [&touched](std::int64_t cell) { touched[cell] = 1; });
     });
-  this->Faces_.assign(smoke.Cells(), 0);
+  this->Neighbours_.assign(smoke.Cells(), {-1, -1, -1, -1, -1, -1});
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
@@ -71,7 +71,7 @@ OpenFaces::OpenFaces(const Scene& scene)
                                            smoke.CellSize(other));
               open = !shapes.Occluded(centre + shift, (target - centre) / length, 0.0, length);
             }
-            this->Faces_[cell] |= static_cast<unsigned char>(open ? 1 << (2 * axis + side) : 0);
+            this->Neighbours_[cell][2 * axis + side] = open ? static_cast<std::int32_t>(other) : -1;
           }
         }
       }

@@ -1,6 +1,7 @@
 // Which neighbouring smoke cells light passes between freely.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,15 +16,16 @@ class OpenFaces
 public:
   explicit OpenFaces(const Scene& scene);
 
+  /// The cell that light passes to freely through a face, or -1. Only scattering cells are asked
+  /// for.
   /// @param axis 0..2, @param side 0: low, 1: high
-  bool Open(std::int64_t cell, int axis, int side) const
+  std::int64_t Neighbour(std::int64_t cell, int axis, int side) const
   {
-    return (this->Faces_[cell] >> (2 * axis + side) & 1) != 0;
+    return this->Neighbours_[cell][2 * axis + side];
   }
 
 private:
-  /// Bit 2 axis + side of each cell.
-  std::vector<unsigned char> Faces_;
+  std::vector<std::array<std::int32_t, 6>> Neighbours_;
 };
 
 } // namespace smokevis

@@ -4,12 +4,11 @@
 #include "Errors.h"
 #include "Exposure.h"
 #include "NearLights.h"
+#include "OpenFaces.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
-
-#include <tbb/task_arena.h>
 
 namespace smokevis
 {
@@ -164,14 +163,16 @@ Scene::~Scene() = default;
 
 const NearLights& Scene::Near() const
 {
-  // Isolated: a thread that waits here must not take up work that asks for the same.
-  std::call_once(this->NearFound_,
-    [this]
-    {
-      tbb::this_task_arena::isolate(
-        [this] { this->Near_ = std::make_unique<const NearLights>(*this); });
-    });
+  tbb::collaborative_call_once(
+    this->NearFound_, [this] { this->Near_ = std::make_unique<const NearLights>(*this); });
   return *this->Near_;
+}
+
+const OpenFaces& Scene::Open() const
+{
+  tbb::collaborative_call_once(
+    this->OpenFound_, [this] { this->Open_ = std::make_unique<const OpenFaces>(*this); });
+  return *this->Open_;
 }
 
 } // namespace smokevis

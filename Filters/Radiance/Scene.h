@@ -8,13 +8,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <vector>
+
+#include <tbb/collaborative_call_once.h>
 
 namespace smokevis
 {
 
 class NearLights;
+class OpenFaces;
 
 /// Plain description of a scene. Lengths in m, extinction in 1/m, luminance in cd/m2.
 struct SceneDescription
@@ -75,6 +77,8 @@ public:
   /// Lights near to smoke cells; found when they are first asked for, by all threads of the
   /// caller's arena.
   const NearLights& Near() const;
+  /// Which cells light passes between; found likewise.
+  const OpenFaces& Open() const;
 
   /// Surface cells come first among the patches.
   std::size_t SurfacePatches() const { return this->Description_.Surfaces.CellReflectance.size(); }
@@ -113,8 +117,9 @@ private:
   EmitterSet Lights_;
   std::shared_ptr<const Geometry> Shapes_;
   bool SharesShapes_ = false;
-  mutable std::once_flag NearFound_;
+  mutable tbb::collaborative_once_flag NearFound_, OpenFound_;
   mutable std::unique_ptr<const NearLights> Near_;
+  mutable std::unique_ptr<const OpenFaces> Open_;
   std::vector<double> PatchArea_;
   /// [patch][side].
   std::vector<double> ExposedArea_;

@@ -2,6 +2,7 @@
 
 #include "DirectField.h"
 #include "LineSweep.h"
+#include "OpenFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ constexpr double ThickestDepth = 4.0;
 
 SourceShape::SourceShape(const Scene& scene, const LightField& field, const DirectField& direct,
   int band, const std::vector<float>& extinction)
-    : DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
+    : Open_(&scene.Open()), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
 {
   const Medium& smoke = scene.Smoke();
   std::vector<std::int32_t> places(extinction.size(), -1);
@@ -44,7 +45,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
   }
   this->Places_ = std::move(places);
   this->Cells_.resize(count);
-  this->Neighbours_.resize(count);
+  this->Measures_.resize(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, extinction.size(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
@@ -58,16 +59,14 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         this->Cells_[this->Places_[i]] = {
           cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}};
-        Neighbours& own = this->Neighbours_[this->Places_[i]];
+        Measures& own = this->Measures_[this->Places_[i]];
         for (int axis = 0; axis < 3; ++axis)
         {
           std::array<double, 2> centre;
           for (int side = 0; side < 2; ++side)
           {
-            const std::int64_t other =
-              direct.Open().Open(cell, axis, side) ? smoke.Neighbour(cell, axis, side) : cell;
-            own.Others[axis][side] = static_cast<std::int32_t>(other);
-            centre[side] = smoke.CellCentre(other)[axis];
+            const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
+            centre[side] = smoke.CellCentre(other < 0 ? cell : other)[axis];
           }
           const double distance = centre[1] - centre[0];
           own.Inverse[axis] = distance > 0.0 ? static_cast<float>(1.0 / distance) : 0.0F;
@@ -103,16 +102,21 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
     {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
-        const Neighbours& own = this->Neighbours_[i];
+        const Measures& own = this->Measures_[i];
+        const std::int64_t cell = this->Cells_[i].Index;
         const bool varies = this->Cells_[i].DirectVaries;
-        const auto value = [&](std::int32_t cell)
-        { return means[cell] + (varies ? 0.0F : this->DirectFluence_[cell]); };
+        const auto value = [&](int axis, int side)
+        {
+          const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
+          const std::int64_t there = other < 0 ? cell : other;
+          return means[there] + (varies ? 0.0F : this->DirectFluence_[there]);
+        };
         Slope slope{};
         float change = 0.0F;
         for (int axis = 0; axis < 3; ++axis)
         {
-          const float low = value(own.Others[axis][0]);
-          const float high = value(own.Others[axis][1]);
+          const float low = value(axis, 0);
+          const float high = value(axis, 1);
           // Light falls off exponentially.
           slope[axis] = low > 0.0F && high > 0.0F ? std::log(high / low) * own.Inverse[axis] : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];

@@ -12,6 +12,7 @@ namespace smokevis
 {
 
 class DirectField;
+class OpenFaces;
 class Scene;
 struct BatchState;
 struct LightField;
@@ -64,19 +65,20 @@ public:
   }
 
 private:
-  struct Neighbours
+  /// What the slopes of a cell are told by.
+  struct Measures
   {
-    /// On the low and the high side along each axis; the cell itself where a surface is between.
-    std::array<std::array<std::int32_t, 2>, 3> Others;
-    /// 1 / distance between their centres, 0 where there is none [1/m].
+    /// 1 / distance between the centres of the neighbours on both sides along each axis, or of the
+    /// cell itself where a surface is between; 0 where there is neither [1/m].
     std::array<float, 3> Inverse;
     /// Half the cell's edges [m].
     std::array<float, 3> Half;
   };
 
+  const OpenFaces* Open_ = nullptr;
   const float* DirectFluence_ = nullptr;
   std::vector<Shaped> Cells_;
-  std::vector<Neighbours> Neighbours_;
+  std::vector<Measures> Measures_;
   /// Place of each cell among them, or -1.
   std::vector<std::int32_t> Places_;
 };

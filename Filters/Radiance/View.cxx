@@ -60,7 +60,7 @@ struct View::Implementation
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
       const Lanes* lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
-      this->MultipleShape[band] = CellShape(scene, this->DirectFluence.Open(),
+      this->MultipleShape[band] = CellShape(scene,
         [lanes](std::int64_t, std::int64_t cell) { return static_cast<float>(Mean(lanes[cell])); });
     }
     this->FindLeak();
