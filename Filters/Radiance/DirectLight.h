@@ -54,10 +54,9 @@ public:
   /// are much the same: where a few of them tell the rest, they do.
   /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
   /// sums hold bounds what is negligible
-  /// @param tolerance error that an optical depth may have that others tell, for a light that makes
-  /// up all of the fluence; 0: none is told, and no light left out
-  BlockWork AddBlockFluence(std::size_t light, const Medium::Block& block, double tolerance,
-    std::vector<Spectrum>& sums) const;
+  /// @param skips whether ways are told and negligible lights left out
+  BlockWork AddBlockFluence(
+    std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
@@ -159,8 +158,8 @@ private:
   /// Mean extinction between the cells of a block and a light: linear between the corners of the
   /// block; none where that does not hold. The less a light may add to what the cells hold, the
   /// rougher its ways may be told.
-  std::optional<Told> BlockWays(const LightGroup& root, const Medium::Block& block,
-    double tolerance, const std::vector<Spectrum>& sums) const;
+  std::optional<Told> BlockWays(
+    const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 

@@ -14,8 +14,10 @@ namespace
 {
 
 /// Cells along the edges of the smallest block in which ways tell of each other, error of an
-/// optical depth that is told so of the weakest lights, and where in the block it is measured.
+/// optical depth that is told so, that of the weakest lights, and where in the block it is
+/// measured.
 constexpr int SmallestBlock = 4;
+constexpr double WayTolerance = 0.004;
 constexpr double RoughWayTolerance = 0.5;
 constexpr std::array<std::array<double, 3>, 3> WayChecks = {
   {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
@@ -105,8 +107,8 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
   return share;
 }
 
-std::optional<DirectLight::Told> DirectLight::BlockWays(const LightGroup& root,
-  const Medium::Block& block, double tolerance, const std::vector<Spectrum>& sums) const
+std::optional<DirectLight::Told> DirectLight::BlockWays(
+  const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const auto cornerCell = [&](int corner)
@@ -141,7 +143,8 @@ std::optional<DirectLight::Told> DirectLight::BlockWays(const LightGroup& root,
                static_cast<double>(this->Scene_.Lights().Lights().size());
   // A weak light may be off by as much of the whole as the strongest; but the share is a bound only
   // where the corners do tell of what lies between.
-  const double allowed = std::min(RoughWayTolerance, tolerance * std::max(1.0, 1.0 / told.Share));
+  const double allowed =
+    std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / told.Share));
   const double scale = this->Scene_.LargestScale();
   for (const auto& share : WayChecks)
   {
@@ -161,17 +164,17 @@ std::optional<DirectLight::Told> DirectLight::BlockWays(const LightGroup& root,
   return told;
 }
 
-DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Medium::Block& block,
-  double tolerance, std::vector<Spectrum>& sums) const
+DirectLight::BlockWork DirectLight::AddBlockFluence(
+  std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   const EmitterSet& lights = this->Scene_.Lights();
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
   std::optional<Told> told;
-  if (tolerance > 0.0 && largest >= SmallestBlock)
+  if (skips && largest >= SmallestBlock)
   {
-    told = this->BlockWays(root, block, tolerance, sums);
+    told = this->BlockWays(root, block, sums);
   }
   BlockWork work;
   if (!told && largest > SmallestBlock)
@@ -190,7 +193,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Med
       }
       if (!empty)
       {
-        const BlockWork own = this->AddBlockFluence(light, child, tolerance, sums);
+        const BlockWork own = this->AddBlockFluence(light, child, skips, sums);
         work.Told += own.Told;
         work.Negligible += own.Negligible;
       }

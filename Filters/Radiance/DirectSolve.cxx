@@ -20,8 +20,6 @@ namespace
 
 /// Cells along the edges of the blocks that share ways to the lights.
 constexpr int BlockEdge = 8;
-/// Error that an optical depth told by others may have, of a light that makes up all of a cell's.
-constexpr double WayTolerance = 0.004;
 /// Tasks for each thread between two reports of progress, so that none of them waits long for
 /// others.
 constexpr std::size_t TasksAThread = 8;
@@ -181,7 +179,6 @@ void DirectSolve::Cells()
   std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
   this->NearCells();
   this->AddParts(direct, sums);
-  const double wayTolerance = this->Options_.Skips ? WayTolerance : 0.0;
   std::atomic<std::size_t> told{0};
   std::atomic<std::size_t> negligible{0};
   this->ForOwn(blocks.size(), 1, PartShare, CellShare,
@@ -190,7 +187,7 @@ void DirectSolve::Cells()
       for (const std::size_t light : this->StrongestFirst(blocks[block]))
       {
         const DirectLight::BlockWork work =
-          direct.AddBlockFluence(light, blocks[block], wayTolerance, sums);
+          direct.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
         told += work.Told;
         negligible += work.Negligible;
       }
