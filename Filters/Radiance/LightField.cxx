@@ -68,7 +68,8 @@ public:
 private:
   void SolveMultiple(int band);
   /// Bound of the share of the direct light along lines of sight that all other light is.
-  double LargestMultipleShare(int band) const;
+  /// @param toSigns lines of sight to signs, or anywhere where there are none
+  double LargestMultipleShare(int band, const VeilProbes& toSigns) const;
   int Settle(LineSweep& sweep, int band, const VeilProbes& probes, std::vector<BatchState>& batches,
     std::uint64_t key);
   /// One sweep of this process's batches.
@@ -239,23 +240,23 @@ const DirectField& Solver::Inside()
   return *this->Inside_;
 }
 
-double Solver::LargestMultipleShare(int band) const
+double Solver::LargestMultipleShare(int band, const VeilProbes& toSigns) const
 {
   const auto bound = ScatterBound::Of(this->Scene_, band);
   if (!bound)
   {
     return std::numeric_limits<double>::infinity();
   }
-  // Views may look elsewhere than to signs, into places where no sign is seen from.
-  double largest = 0.0;
-  for (const VeilProbes::Lines lines : {VeilProbes::Lines::ToSigns, VeilProbes::Lines::Anywhere})
+  const auto fluence = [&bound](std::int64_t cell) { return bound->Fluence(cell); };
+  const double share = toSigns.LargestShare(fluence, bound->Illuminance());
+  if (this->Scene_.Lights().Signs().empty())
   {
-    const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed, lines);
-    largest =
-      std::max(largest, probes.LargestShare([&](std::int64_t cell) { return bound->Fluence(cell); },
-                          bound->Illuminance()));
+    return share;
   }
-  return largest;
+  // Views may look elsewhere than to signs, into places where no sign is seen from.
+  const VeilProbes anywhere(
+    this->Scene_, this->Field_, band, this->Options_.Seed, VeilProbes::Lines::Anywhere);
+  return std::max(share, anywhere.LargestShare(fluence, bound->Illuminance()));
 }
 
 void Solver::SolveMultiple(int band)
@@ -281,9 +282,10 @@ void Solver::SolveMultiple(int band)
       "albedo or extinction is 0 and no surface reflects");
     return;
   }
+  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
   if (this->Options_.Skips)
   {
-    const double share = this->LargestMultipleShare(band);
+    const double share = this->LargestMultipleShare(band, probes);
     if (share <= NegligibleShare * this->Options_.Tolerance)
     {
       this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells),
@@ -311,7 +313,6 @@ void Solver::SolveMultiple(int band)
   std::vector<BatchState> batches(
     Batches, BatchState(this->Field_.Cells, 2 * this->Field_.Patches));
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
-  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
   this->LinesABatch_ = 0;
   int done = this->Settle(sweep, band, probes, batches, key);
   const int settling = done - batches.front().Counted;

@@ -1,12 +1,12 @@
 #include "LineSweep.h"
 
 #include "DirectField.h"
+#include "LinePieces.h"
 #include "Sampler.h"
+#include "SweepLines.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
 #include <glm/gtc/constants.hpp>
 
@@ -16,105 +16,15 @@ namespace smokevis
 namespace
 {
 
-/// How often a sweep's lines cross each cell and meet each patch, and how many there are at least.
-/// Above a tolerance fewer do: a few sweeps there must be for the light to settle, which would
-/// bring less noise than is asked for.
-constexpr double CrossingsPerSweep = 1.5;
-constexpr double FewestLines = 512.0;
+/// Above a tolerance fewer lines do: a few sweeps there must be for the light to settle, which
+/// would bring less noise than is asked for.
 constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
-constexpr double MostLinesForPatches = 20000.0;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
-
-/// How many times the smoke's box the scene's must be for lines through the smoke's alone.
-constexpr double InnerRatio = 3.0;
-
-/// The box around the scene, somewhat larger: surfaces on its border lie inside.
-Box SceneBox(const Scene& scene)
-{
-  const double margin = 1e-4 * glm::length(scene.Upper() - scene.Lower());
-  return {scene.Lower() - margin, scene.Upper() + margin};
-}
-
-/// How many lines through a box patches need, where surfaces send light on or out.
-/// @param serves which patches count
-double LinesForPatches(
-  const Scene& scene, int band, const Box& box, const std::vector<bool>& serves)
-{
-  double area = 0.0;
-  // The cells of a sign share their indirect light.
-  std::map<int, double> cellsOfSign;
-  for (const EmitterCell& cell : scene.Lights().Cells())
-  {
-    cellsOfSign[cell.SignId] += 1.0;
-  }
-  double reflecting = 0.0;
-  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
-  {
-    if (serves[patch] && (scene.PatchReflectance(patch)[band] > 0.0 || scene.Sky() > 0.0))
-    {
-      area += scene.PatchArea(patch);
-      const int sign = patch < scene.SurfacePatches()
-                         ? -1
-                         : scene.Lights().Cells()[patch - scene.SurfacePatches()].SignId;
-      reflecting += sign < 0 ? 1.0 : 1.0 / cellsOfSign[sign];
-    }
-  }
-  // Patches that are tiny against the box are not worth a flood of lines.
-  return area > 0.0 ? std::min(CrossingsPerSweep * reflecting * box.Surface() / (2.0 * area),
-                        MostLinesForPatches)
-                    : 0.0;
-}
-
-/// Which patches lie in a box.
-std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
-{
-  std::vector<bool> inside(scene.Patches(), true);
-  scene.ForEachTriangle(
-    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
-    {
-      for (const Vec3& corner : corners)
-      {
-        inside[patch] = inside[patch] && box.Contains(corner);
-      }
-    });
-  return inside;
-}
-
-GlobalLines LinesFor(const Scene& scene, int band)
-{
-  const Medium& smoke = scene.Smoke();
-  double boundary = 0.0;
-  for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
-  {
-    boundary += BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell)));
-  }
-  const auto count = [](double lines)
-  { return static_cast<std::size_t>(std::ceil(std::max(FewestLines, lines))); };
-  const Box box = SceneBox(scene);
-  // By Cauchy's formula a line meets a convex body in proportion to its surface.
-  const double linesPerArea =
-    boundary > 0.0 ? CrossingsPerSweep * static_cast<double>(smoke.Cells()) / boundary : 0.0;
-  const double margin = 1e-4 * glm::length(smoke.Upper() - smoke.Lower());
-  const Box inner = {
-    glm::max(box.Lower, smoke.Lower() - margin), glm::min(box.Upper, smoke.Upper() + margin)};
-  if (smoke.Empty() || box.Surface() < InnerRatio * inner.Surface())
-  {
-    const std::vector<bool> all(scene.Patches(), true);
-    return {
-      box, count(std::max(linesPerArea * box.Surface(), LinesForPatches(scene, band, box, all)))};
-  }
-  std::vector<bool> inside = PatchesIn(scene, inner);
-  const double forInside = LinesForPatches(scene, band, inner, inside);
-  inside.flip();
-  GlobalLines lines(box, count(LinesForPatches(scene, band, box, inside)));
-  lines.AddInner(inner, count(std::max(linesPerArea * inner.Surface(), forInside)));
-  return lines;
-}
 
 } // namespace
 
@@ -154,7 +64,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(LinesFor(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
+      Lines_(SweepLines(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
 {
   this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
   const Medium& smoke = scene.Smoke();
@@ -271,30 +181,9 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
       [&](double part, double direct)
       { addPart(part, own.Source + this->Scatter_ * (static_cast<float>(direct) - mean)); });
   };
-  std::size_t crossing = 0;
-  const auto closeUntil = [&](double distance)
-  {
-    while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance <= distance)
-    {
-      buffers.First.push_back(buffers.Cell.size());
-      ++crossing;
-    }
-  };
-  for (const Segment& segment : buffers.Segments)
-  {
-    // A surface inside a cell parts its piece in two.
-    double begin = segment.Begin;
-    closeUntil(begin);
-    while (crossing < crossings && buffers.Crossings[crossing].Arrive.Distance < segment.End)
-    {
-      const double middle = buffers.Crossings[crossing].Arrive.Distance;
-      add(segment.Cell, begin, middle);
-      begin = middle;
-      closeUntil(middle);
-    }
-    add(segment.Cell, begin, segment.End);
-  }
-  closeUntil(std::numeric_limits<double>::infinity());
+  ForEachPiece(
+    buffers.Crossings, buffers.Segments,
+    [&](std::size_t) { buffers.First.push_back(buffers.Cell.size()); }, add);
   const std::size_t pieces = buffers.Cell.size();
   buffers.First.push_back(pieces);
 
@@ -437,7 +326,7 @@ void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState&
       const float residual =
         albedo * this->DirectFluence_[cell] + emission - loss * state.Fluence[cell] + change;
       state.FluenceSum[cell] += state.Fluence[cell] + residual;
-      state.Fluence[cell] += this->Thick_.Gain(cell, share) * residual;
+      state.Fluence[cell] += this->Thick_.Gain(cell, share * this->CellCrossings_[cell]) * residual;
       continue;
     }
     state.Fluence[cell] = tally.Expected / BothWays + change;

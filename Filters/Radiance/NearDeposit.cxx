@@ -75,20 +75,14 @@ NearDeposit::Ray NearDeposit::Draw(std::size_t leaf, std::uint64_t index, std::u
 {
   const LightGroup& group = this->Scene_.Lights().Groups()[this->Leaves_[leaf]];
   const std::array<double, 4> point = EvenPoints(Mix(Key) + leaf).Point(index);
-  // Directions as a Lambertian plate sends them.
-  const double sine = std::sqrt(point[2]);
-  const double cosine = std::sqrt(1.0 - point[2]);
-  const double azimuth = 2.0 * glm::pi<double>() * point[3];
-  const Vec3 along =
-    glm::normalize(std::abs(group.Normal.x) < 0.9 ? glm::cross(group.Normal, Vec3(1.0, 0.0, 0.0))
-                                                  : glm::cross(group.Normal, Vec3(0.0, 1.0, 0.0)));
-  const Vec3 direction = sine * std::cos(azimuth) * along +
-                         sine * std::sin(azimuth) * glm::cross(group.Normal, along) +
-                         cosine * group.Normal;
+  const Vec3 aside = std::abs(group.Normal.x) < 0.9 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
+  const Vec3 direction = LambertianDirection(
+    group.Normal, glm::normalize(glm::cross(group.Normal, aside)), point[2], point[3]);
   Ray ray{group.At(point[0], point[1]) + 10.0 * this->Scene_.Shapes().Tolerance() * group.Normal,
     direction, Spectrum{}};
   const double weight = glm::pi<double>() * group.AreaAt(point[0], point[1]) / group.Area *
-                        group.Law.Relative(direction, cosine) / static_cast<double>(count);
+                        group.Law.Relative(direction, glm::dot(direction, group.Normal)) /
+                        static_cast<double>(count);
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     ray.Power[band] = weight * group.Intensity[band];

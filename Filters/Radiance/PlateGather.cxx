@@ -93,7 +93,6 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
   const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
   const Vec3 edgeV = sign.Corners[3] - sign.Corners[0];
   const Vec3 tangent = glm::normalize(edgeU);
-  const Vec3 other = glm::cross(sign.Normal, tangent);
   const Vec3 base = sign.Corners[0] + 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
   double direct = 0.0;
   double area = 0.0;
@@ -120,10 +119,7 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
       for (int ray = done; ray < rays; ++ray)
       {
         const auto random = points.Point(ray);
-        const double sine = std::sqrt(random[2]);
-        const double angle = glm::two_pi<double>() * random[3];
-        const Vec3 direction = sine * std::cos(angle) * tangent + sine * std::sin(angle) * other +
-                               std::sqrt(1.0 - random[2]) * sign.Normal;
+        const Vec3 direction = LambertianDirection(sign.Normal, tangent, random[2], random[3]);
         sums[batch] +=
           glm::pi<double>() * this->Radiance(base + random[0] * edgeU + random[1] * edgeV,
                                 direction, ToUnit(Mix(key + ray)), batch);

@@ -1,8 +1,13 @@
 // Random numbers that depend on counters alone, and the point sequence that lines are drawn from.
 #pragma once
 
+#include "Types.h"
+
 #include <array>
+#include <cmath>
 #include <cstdint>
+
+#include <glm/gtc/constants.hpp>
 
 namespace smokevis
 {
@@ -54,5 +59,18 @@ public:
 private:
   std::array<double, 4> Shift_;
 };
+
+/// A unit direction as a Lambertian plane sends or gathers light: as often as its cosine with the
+/// normal.
+/// @param tangent unit vector in the plane
+/// @param square of the sine of the angle to the normal, 0 to 1
+/// @param turn share of the full circle from the tangent, 0 to 1
+inline Vec3 LambertianDirection(const Vec3& normal, const Vec3& tangent, double square, double turn)
+{
+  const double sine = std::sqrt(square);
+  const double angle = glm::two_pi<double>() * turn;
+  return sine * std::cos(angle) * tangent + sine * std::sin(angle) * glm::cross(normal, tangent) +
+         std::sqrt(1.0 - square) * normal;
+}
 
 } // namespace smokevis

@@ -1,6 +1,7 @@
 #include "ThickCells.h"
 
 #include "GlobalLines.h"
+#include "LinePieces.h"
 #include "Progress.h"
 #include "Scene.h"
 
@@ -55,7 +56,6 @@ ThickCells::ThickCells(const Scene& scene, const std::vector<float>& extinction,
   }
   const std::vector<double> measured = Escapes(scene, extinction, lines, progress);
   this->Orders_.assign(extinction.size(), 0.0F);
-  this->Meetings_.assign(extinction.size(), 0.0F);
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
@@ -65,7 +65,9 @@ ThickCells::ThickCells(const Scene& scene, const std::vector<float>& extinction,
       continue;
     }
     this->Orders_[i] = static_cast<float>(1.0 / (1.0 - returned(escape)));
-    this->Meetings_[i] = static_cast<float>(lines.Meetings(BoxSurface(smoke.CellSize(cell)), true));
+    const auto meetings =
+      static_cast<float>(lines.Meetings(BoxSurface(smoke.CellSize(cell)), true));
+    this->Orders_[i] = this->Gain(i, meetings) < SmallestGain ? 0.0F : this->Orders_[i];
   }
 }
 
@@ -91,28 +93,15 @@ std::vector<double> ThickCells::Escapes(const Scene& scene, const std::vector<fl
         const GlobalLines::Line line = draw.Get(i);
         scene.Shapes().Cross(line.Origin, line.Direction, 0.0, line.Length, crossings);
         scene.Smoke().Walk(line.Origin, line.Direction, 0.0, line.Length, segments);
-        auto crossing = crossings.begin();
-        for (const Segment& segment : segments)
-        {
-          double begin = segment.Begin;
-          const auto add = [&](double end)
+        ForEachPiece(
+          crossings, segments, [](std::size_t) {},
+          [&](std::int64_t cell, double begin, double end)
           {
             const double length = end - begin;
-            const std::int64_t cell = segment.Cell;
             lengths[sweep][cell] += static_cast<float>(line.Weight * length);
             escaped[sweep][cell] +=
               static_cast<float>(line.Weight * length * LargestEscape(extinction[cell] * length));
-            begin = end;
-          };
-          for (; crossing != crossings.end() && crossing->Arrive.Distance < segment.End; ++crossing)
-          {
-            if (crossing->Arrive.Distance > begin)
-            {
-              add(crossing->Arrive.Distance);
-            }
-          }
-          add(segment.End);
-        }
+          });
       }
     });
   std::vector<double> escapes(cells, 1.0);

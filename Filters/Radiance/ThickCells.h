@@ -31,11 +31,10 @@ public:
     return !this->Orders_.empty() && this->Orders_[cell] > 0.0F;
   }
   /// How many times what a sweep would change of a thick cell's fluence it is to change.
-  /// @param share of a whole sweep's lines that the sweep has
-  float Gain(std::size_t cell, float share) const
+  /// @param meetings how many lines of the sweep are expected to meet the cell
+  float Gain(std::size_t cell, float meetings) const
   {
     // Where few lines meet a cell, their lengths differ more than what they bring.
-    const float meetings = share * this->Meetings_[cell];
     return meetings / (meetings + LengthVariance) * this->Orders_[cell];
   }
   /// How many of them there are.
@@ -50,9 +49,8 @@ private:
   /// Variance of the length of all lines in a cell that one of them would meet, over its square.
   static constexpr float LengthVariance = 1.5F;
 
-  /// Orders of scattering that light stays in a thick cell, 0 in others, and how many lines of a
-  /// whole sweep are expected to meet it.
-  std::vector<float> Orders_, Meetings_;
+  /// Orders of scattering that light stays in a thick cell, 0 in others.
+  std::vector<float> Orders_;
 };
 
 } // namespace smokevis

@@ -81,6 +81,7 @@ TEST(Slab, CoarseLayers)
 {
   CheckRows(5.0, 5.0, {0.5, 0.8}, 9, 0.01);
   CheckRows(5.0, 5.0, {0.5, 0.8}, 5, 0.03);
+  CheckRows(5.0, 5.0, {0.5, 0.8}, 3, 0.05);
 }
 
 TEST(Slab, ThinLong)

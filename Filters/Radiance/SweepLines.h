@@ -1,0 +1,20 @@
+// How many lines a sweep draws, and through which boxes.
+#pragma once
+
+#include "GlobalLines.h"
+
+#include <vector>
+
+namespace smokevis
+{
+
+class Scene;
+
+/// Lines through the scene that cross each smoke cell about 1.5 times and meet each patch that
+/// sends light on or out as often, in the mean.
+GlobalLines SweepLines(const Scene& scene, int band);
+
+/// Which patches lie in a box.
+std::vector<bool> PatchesIn(const Scene& scene, const Box& box);
+
+} // namespace smokevis
