@@ -1,5 +1,6 @@
 // Makes Data/References/deep_tunnel_own.csv: the luminance of the tunnel's dark bars by the
-// reference integrator. Usage: DeepRegimeReference MILLIONS_OF_SAMPLES > deep_tunnel_own.csv
+// reference integrator. Usage: DeepRegimeReference MILLIONS_OF_SAMPLES [NAME] > deep_tunnel_own.csv
+// With a name, of that scene alone.
 #include "DeepScenes.h"
 
 #include <cstdio>
@@ -8,9 +9,9 @@
 int main(int count, char** words)
 {
   using namespace smokevis;
-  if (count != 2 || std::atof(words[1]) <= 0.0)
+  if (count < 2 || count > 3 || std::atof(words[1]) <= 0.0)
   {
-    std::fprintf(stderr, "usage: %s MILLIONS_OF_SAMPLES\n", words[0]);
+    std::fprintf(stderr, "usage: %s MILLIONS_OF_SAMPLES [NAME]\n", words[0]);
     return 2;
   }
   const auto samples = static_cast<std::uint64_t>(1e6 * std::atof(words[1]));
@@ -23,6 +24,10 @@ int main(int count, char** words)
     words[1], words[1]);
   for (const scenes::DeepScene& deep : scenes::DeepScenes)
   {
+    if (count == 3 && deep.Name != words[2])
+    {
+      continue;
+    }
     const Scene scene(scenes::Tunnel(deep.Extinction, deep.Albedo));
     const Estimate dark = ReferenceIntegrator(scene).MeanRadiance(
       [](Pcg32& random) { return scenes::TunnelBarRay(false, random); }, samples, 7);
