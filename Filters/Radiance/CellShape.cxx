@@ -12,14 +12,6 @@
 namespace smokevis
 {
 
-namespace
-{
-
-/// Most change of the logarithm of a field across a cell.
-constexpr double SteepestChange = 4.0;
-
-} // namespace
-
 CellShape::CellShape(const Scene& scene, const Means& means)
 {
   const OpenFaces& open = scene.Open();

@@ -17,6 +17,8 @@ class Scene;
 class CellShape
 {
 public:
+  /// Most change of the logarithm of a field across a cell.
+  static constexpr double SteepestChange = 4.0;
   /// Mean of the field in the second cell, as the first, its neighbour, sees it; 0: not known.
   using Means = std::function<float(std::int64_t, std::int64_t)>;
 

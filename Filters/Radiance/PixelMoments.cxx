@@ -100,7 +100,7 @@ void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, 
     squares += (ratio(part) - mean) * (ratio(part) - mean);
   }
   value = std::max(0.0, Batches * ratio(whole) - (Batches - 1.0) * mean);
-  error = std::sqrt((Batches - 1.0) / Batches * squares);
+  error = FewBatches * std::sqrt((Batches - 1.0) / Batches * squares);
 }
 
 } // namespace smokevis

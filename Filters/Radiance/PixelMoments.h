@@ -46,7 +46,7 @@ void AddPixels(
   const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, int leftOut, Sums& sums);
 
 /// Deviation over (mean + dark) with its jackknife estimate, free of first-order bias, and standard
-/// error.
+/// error (as large as two of it must be to hold what two of a normal law do: FewBatches).
 /// @param parts each with one batch left out
 void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
   double& value, double& error);

@@ -23,7 +23,7 @@ double StandardError(const Lanes& lanes)
   {
     squares += (value - mean) * (value - mean);
   }
-  return std::sqrt(squares / (Batches * (Batches - 1.0)));
+  return FewBatches * std::sqrt(squares / (Batches * (Batches - 1.0)));
 }
 
 } // namespace smokevis

@@ -1,11 +1,13 @@
 #include "View.h"
 
 #include "DirectField.h"
+#include "OpenFaces.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
+#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -59,9 +61,13 @@ struct View::Implementation
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
-      const Lanes* lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
-      this->MultipleShape[band] = CellShape(scene,
-        [lanes](std::int64_t, std::int64_t cell) { return static_cast<float>(Mean(lanes[cell])); });
+      const Lanes* const lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
+      std::vector<float>& means = this->MultipleMeans[band];
+      means.resize(field.Cells);
+      tbb::parallel_for(std::size_t{0}, field.Cells,
+        [&](std::size_t cell) { means[cell] = static_cast<float>(Mean(lanes[cell])); });
+      this->MultipleShape[band] =
+        CellShape(scene, [&means](std::int64_t, std::int64_t cell) { return means[cell]; });
     }
     this->FindLeak();
   }
@@ -74,7 +80,8 @@ struct View::Implementation
   const LightField& Field;
   DirectLight Direct;
   DirectField DirectFluence;
-  /// How the mean of the batches of the multiply scattered fluence varies.
+  /// Mean of the batches of the multiply scattered fluence of each cell [lx], and how it varies.
+  std::array<std::vector<float>, 3> MultipleMeans;
   std::array<CellShape, 3> MultipleShape;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
@@ -97,8 +104,37 @@ void View::Implementation::FindLeak()
 void View::Implementation::AddMultiple(
   std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const
 {
-  Add(sum, this->Field.MultipleFluence[this->Field.CellIndex(band, cell)],
-    static_cast<float>(weight * this->MultipleShape[band].Value(cell, point)));
+  const Lanes* const lanes = this->Field.MultipleFluence.data() + this->Field.CellIndex(band, 0);
+  const double value = weight * this->MultipleShape[band].Value(cell, point);
+  Add(sum, lanes[cell], static_cast<float>(value));
+  // The slopes come from the neighbours' means, noise and all. The mean over the batches stays what
+  // it is if each has slopes of its own, to first order, and their spread then tells that noise.
+  const std::vector<float>& means = this->MultipleMeans[band];
+  const OpenFaces& open = this->TheScene.Open();
+  const Medium& smoke = this->TheScene.Smoke();
+  const Vec3 from = (point - smoke.CellCentre(cell)) / smoke.CellSize(cell);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::array<std::int64_t, 2> others = {cell, cell};
+    int apart = 0;
+    for (const int side : {0, 1})
+    {
+      const std::int64_t other = open.Neighbour(cell, axis, side);
+      if (other >= 0 && means[other] > 0.0F)
+      {
+        others[side] = other;
+        ++apart;
+      }
+    }
+    // Slopes that are cut off do not follow noise.
+    const auto [least, most] = std::minmax(means[others[0]], means[others[1]]);
+    if (apart > 0 && most < std::exp(CellShape::SteepestChange * apart) * least)
+    {
+      const double share = value * means[cell] * from[axis] / apart;
+      Add(sum, lanes[others[1]], static_cast<float>(share / means[others[1]]));
+      Add(sum, lanes[others[0]], static_cast<float>(-share / means[others[0]]));
+    }
+  }
 }
 
 View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)

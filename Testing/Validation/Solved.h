@@ -141,7 +141,8 @@ private:
       {
         square += (value - mean) * (value - mean);
       }
-      return {(direct + mean) / count, std::sqrt(square / (Batches * (Batches - 1.0))) / count};
+      return {(direct + mean) / count,
+        FewBatches * std::sqrt(square / (Batches * (Batches - 1.0))) / count};
     }
 
   private:
