@@ -1,6 +1,7 @@
 #include "View.h"
 
 #include "DirectField.h"
+#include "ShapeNoise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,7 @@ struct View::Implementation
       const Lanes* lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
       this->MultipleShape[band] = CellShape(scene,
         [lanes](std::int64_t, std::int64_t cell) { return static_cast<float>(Mean(lanes[cell])); });
+      this->MultipleNoise[band] = ShapeNoise(scene, lanes, this->MultipleShape[band]);
     }
     this->FindLeak();
   }
@@ -76,6 +78,7 @@ struct View::Implementation
   DirectField DirectFluence;
   /// How the mean of the batches of the multiply scattered fluence varies.
   std::array<CellShape, 3> MultipleShape;
+  std::array<ShapeNoise, 3> MultipleNoise;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
 };
@@ -97,8 +100,10 @@ void View::Implementation::FindLeak()
 void View::Implementation::AddMultiple(
   std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const
 {
-  Add(sum, this->Field.MultipleFluence[this->Field.CellIndex(band, cell)],
-    static_cast<float>(weight * this->MultipleShape[band].Value(cell, point)));
+  const Lanes& mean = this->Field.MultipleFluence[this->Field.CellIndex(band, cell)];
+  const double there = weight * this->MultipleShape[band].Value(cell, point);
+  Add(sum, mean, static_cast<float>(there));
+  this->MultipleNoise[band].Add(cell, point, there, mean, sum);
 }
 
 View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)

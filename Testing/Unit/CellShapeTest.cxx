@@ -1,0 +1,93 @@
+// How a field varies inside cells, and the noise that this has of the neighbours.
+#include "CellShape.h"
+#include "Scene.h"
+#include "ShapeNoise.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Three cells in a row along x.
+Scene Row()
+{
+  SceneDescription description;
+  SmokeGrid grid;
+  grid.Name = "row";
+  grid.Nodes = {{{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0}, {0.0, 1.0}}};
+  grid.Extinction.assign(3, 1.0F);
+  description.Albedo = 0.5;
+  description.Grids = {grid};
+  EmitterCell lamp;
+  lamp.Vertices = {{1.4, 0.4, 0.9}, {1.4, 0.6, 0.9}, {1.6, 0.6, 0.9}, {1.6, 0.4, 0.9}};
+  lamp.Luminance = {1.0, 1.0, 1.0};
+  description.Emitters = {lamp};
+  return Scene(description);
+}
+
+/// A value of a mean, a batch each, of a standard deviation that is given as a share.
+Lanes Noisy(double mean, double deviation, int phase)
+{
+  Lanes lanes;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    // Sixteen cosines have the mean 0 and the mean square 1 / 2.
+    lanes[batch] = static_cast<float>(
+      mean * (1.0 + deviation * std::sqrt(2.0) *
+                      std::cos(2.0 * std::numbers::pi * phase * batch / Batches)));
+  }
+  return lanes;
+}
+
+Lanes ValueAt(const Scene& scene, const std::vector<Lanes>& field, const Vec3& point)
+{
+  const CellShape shape(
+    scene, [&](std::int64_t, std::int64_t cell) { return static_cast<float>(Mean(field[cell])); });
+  const double weight = shape.Value(1, point);
+  Lanes value;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    value[batch] = static_cast<float>(weight * field[1][batch]);
+  }
+  ShapeNoise(scene, field.data(), shape).Add(1, point, weight, field[1], value);
+  return value;
+}
+
+// What batches say of a place between the centres of two cells is what fields made of each batch
+// alone have there, where the noise is small enough for the logarithm to be straight.
+TEST(ShapeNoise, IsThatOfFieldsOfEachBatch)
+{
+  const Scene scene = Row();
+  const std::vector<Lanes> field = {
+    Noisy(5.0, 0.003, 1), Noisy(2.0, 0.0005, 2), Noisy(0.5, 0.002, 3)};
+  for (const double x : {1.0, 1.3, 1.5, 1.9})
+  {
+    const Vec3 point(x, 0.5, 0.5);
+    const Lanes value = ValueAt(scene, field, point);
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      const CellShape own(
+        scene, [&](std::int64_t, std::int64_t cell) { return field[cell][batch]; });
+      const double expected = field[1][batch] * own.Value(1, point);
+      // The second order is about the square of the largest deviation.
+      EXPECT_NEAR(value[batch] / expected, 1.0, 3e-5) << "x = " << x << ", batch " << batch;
+    }
+  }
+}
+
+// Where the neighbours are known as well as the cell, its own noise is all that is told.
+TEST(ShapeNoise, LeavesCellsKnownAlike)
+{
+  const Scene scene = Row();
+  const std::vector<Lanes> field = {
+    Noisy(5.0, 0.003, 1), Noisy(2.0, 0.003, 2), Noisy(0.5, 0.003, 3)};
+  const Lanes value = ValueAt(scene, field, {1.9, 0.5, 0.5});
+  EXPECT_NEAR(StandardError(value) / Mean(value), 0.003 / std::sqrt(15.0), 1e-6);
+}
+
+} // namespace
