@@ -3,16 +3,14 @@
 
 #include "Errors.h"
 #include "PixelLight.h"
+#include "ReportedLoop.h"
 #include "SmallPlates.h"
 #include "Team.h"
 #include "VeilBlock.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <thread>
 
 namespace smokevis
 {
@@ -331,26 +329,17 @@ TracedImage TracePinhole(
   image.SignIds.resize(pixels);
 
   const BlockTracer tracer(view, camera, acuity, image);
-  const std::thread::id caller = std::this_thread::get_id();
   const Squares squares(camera);
-  const std::size_t own = team.OwnCount(squares.Count);
-  std::atomic<std::size_t> done{0};
   std::atomic<std::size_t> averaged{0};
-  tbb::parallel_for(std::size_t{0}, own,
+  tbb::task_arena arena{tbb::task_arena::attach()};
+  ReportedLoop(
+    arena, team.OwnCount(squares.Count), 1, progress,
+    [&progress](double done) { progress.Report(done); },
     [&](std::size_t i)
     {
-      if (progress.ShouldStop())
-      {
-        return;
-      }
       const std::size_t square = team.OwnItem(i);
       averaged.fetch_add(
         tracer.Trace(squares.X(square), squares.Y(square)), std::memory_order_relaxed);
-      const std::size_t count = done.fetch_add(1, std::memory_order_relaxed) + 1;
-      if (std::this_thread::get_id() == caller)
-      {
-        progress.Report(static_cast<double>(count) / static_cast<double>(own));
-      }
     });
   if (progress.ShouldStop())
   {

@@ -7,6 +7,7 @@
 #include "PointArrays.h"
 #include "PropertyChecks.h"
 #include "Ranks.h"
+#include "ReportedLoop.h"
 #include "SightLine.h"
 #include "SignList.h"
 #include "SliceSampler.h"
@@ -22,8 +23,6 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
@@ -234,15 +233,13 @@ void vtkJinVisibility::Compute(
     fds->SetValue(i, std::isnan(sampled[i]) ? NOT_KNOWN : Compare(state, any, any && reaches));
   };
   const vtkIdType places = map->GetNumberOfPoints();
-  const vtkIdType chunk = std::max<vtkIdType>(64, places / 50);
   smokevis::RunWithProgress(this, 0.1, 0.95,
     [&](smokevis::Progress& progress)
     {
-      for (vtkIdType begin = 0; begin < places && !progress.ShouldStop(); begin += chunk)
-      {
-        tbb::parallel_for(begin, std::min(places, begin + chunk), place);
-        progress.Report(static_cast<double>(begin) / static_cast<double>(places));
-      }
+      tbb::task_arena arena{tbb::task_arena::attach()};
+      smokevis::ReportedLoop(
+        arena, static_cast<std::size_t>(places), 16, progress,
+        [&progress](double done) { progress.Report(done); }, place);
     });
 
   output->GetPointData()->SetActiveScalars("JinDifference");

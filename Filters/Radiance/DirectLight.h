@@ -142,24 +142,27 @@ private:
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;
-  /// What the corners of a block of cells tell of the ways to a light from the cells between.
-  struct Told
+  /// Ways from the cells of a block to a light that is far from it.
+  struct BlockWays
   {
-    /// Mean extinctions [1/m].
-    std::array<double, 8> Ways{};
+    /// Mean extinction along each, x fastest [1/m].
+    std::vector<double> Extinction;
+    /// Whether the corners tell of the others: they are linear between them.
+    bool Told = false;
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.
     double Share = 0.0;
   };
-  /// Largest share that a light may add to what any cell of a block already holds; a bound.
-  /// @param ways mean extinctions along the ways to the block's corners
-  double LargestShare(const LightGroup& root, const Medium::Block& block,
-    const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const;
-  /// Mean extinction between the cells of a block and a light: linear between the corners of the
-  /// block; none where that does not hold. The less a light may add to what the cells hold, the
-  /// rougher its ways may be told.
-  std::optional<Told> BlockWays(
-    const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const;
+  /// That bound.
+  /// @param extinction smallest mean along the ways [1/m]
+  /// @param rough error of their optical depths
+  double LargestShare(const LightGroup& root, const Medium::Block& block, double extinction,
+    double rough, const std::vector<Spectrum>& sums) const;
+  /// None where the light is not far. The less a light may add to what the cells hold, the rougher
+  /// its ways may be told.
+  /// @param whole whether ways are walked where they are not told; else there are none then
+  std::optional<BlockWays> WaysFrom(const LightGroup& root, const Medium::Block& block, bool whole,
+    const std::vector<Spectrum>& sums) const;
   void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
     int splits, double weight, std::array<Spectrum, 2>& sum) const;
 

@@ -13,7 +13,7 @@ namespace smokevis
 namespace
 {
 
-/// Cells along the edges of the smallest block in which ways tell of each other, error of an
+/// Cells along the edges of the smallest blocks, error of an
 /// optical depth that is told so, that of the weakest lights, and where in the block it is
 /// measured.
 constexpr int SmallestBlock = 4;
@@ -28,6 +28,34 @@ constexpr double NegligibleShare = 1e-7;
 /// light over a cell is taken without Gauss points, to a few percent of itself.
 constexpr double WeakShare = 0.05;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t CellsOf(const Medium::Block& block)
+{
+  return static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
+}
+
+/// Number of a cell in its block, x fastest.
+std::size_t PlaceIn(const Medium::Block& block, const std::array<int, 3>& place)
+{
+  return place[0] + static_cast<std::size_t>(block.Size[0]) *
+                      (place[1] + static_cast<std::size_t>(block.Size[1]) * place[2]);
+}
+
+template <class Visit> void ForEachCell(const Medium::Block& block, Visit&& visit)
+{
+  std::array<int, 3> place;
+  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
+  {
+    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+    {
+      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      {
+        visit(place);
+      }
+    }
+  }
+}
 
 /// Where a cell lies between the first and the last of its block, 0 to 1.
 Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
@@ -64,7 +92,7 @@ double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) con
 }
 
 double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
-  const std::array<double, 8>& ways, const std::vector<Spectrum>& sums) const
+  double extinction, double rough, const std::vector<Spectrum>& sums) const
 {
   if (root.Law.Measured())
   {
@@ -81,7 +109,7 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
   {
     return Infinity;
   }
-  const double depth = *std::min_element(ways.begin(), ways.end()) * distance - RoughWayTolerance;
+  const double depth = extinction * distance - rough;
   Spectrum most{};
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
@@ -89,79 +117,101 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
                  std::exp(-this->Scene_.ExtinctionScale(band) * depth);
   }
   double share = 0.0;
-  std::array<int, 3> place;
-  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
-  {
-    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+  ForEachCell(block,
+    [&](const std::array<int, 3>& place)
     {
-      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      const std::int64_t cell = smoke.Cell(block, place);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        const std::int64_t cell = smoke.Cell(block, place);
-        for (int band = 0; band < this->Scene_.Bands(); ++band)
-        {
-          share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
-        }
+        share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
       }
-    }
-  }
-  return share;
+    });
+  return share * static_cast<double>(this->Scene_.Lights().Lights().size());
 }
 
-std::optional<DirectLight::Told> DirectLight::BlockWays(
-  const LightGroup& root, const Medium::Block& block, const std::vector<Spectrum>& sums) const
+std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& root,
+  const Medium::Block& block, bool whole, const std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const auto cornerCell = [&](int corner)
+  const auto corner = [&](int index)
   {
-    return smoke.Cell(
-      block, {corner & 1 ? block.Size[0] - 1 : 0, corner & 2 ? block.Size[1] - 1 : 0,
-               corner & 4 ? block.Size[2] - 1 : 0});
+    return std::array<int, 3>{index & 1 ? block.Size[0] - 1 : 0, index & 2 ? block.Size[1] - 1 : 0,
+      index & 4 ? block.Size[2] - 1 : 0};
   };
-  const Vec3 low = smoke.CellCentre(cornerCell(0));
-  const Vec3 high = smoke.CellCentre(cornerCell(7));
+  const Vec3 low = smoke.CellCentre(smoke.Cell(block, corner(0)));
+  const Vec3 high = smoke.CellCentre(smoke.Cell(block, corner(7)));
   const double distance =
     glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
-  const Vec3 size = smoke.CellSize(cornerCell(0));
+  const Vec3 size = smoke.CellSize(smoke.Cell(block, corner(0)));
   const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
   if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
       edge > 0.5 * BoxRatio * distance)
   {
     return std::nullopt;
   }
-  Told told;
-  for (int corner = 0; corner < 8; ++corner)
+  BlockWays ways;
+  ways.Extinction.assign(CellsOf(block), Unknown);
+  const auto walk = [&](const std::array<int, 3>& place)
   {
-    const std::int64_t cell = cornerCell(corner);
-    // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
-    if (smoke.Extinction(cell) == 0.0F && smoke.MaximumExtinction() > 0.0F)
+    double& extinction = ways.Extinction[PlaceIn(block, place)];
+    if (std::isnan(extinction))
     {
-      return std::nullopt;
+      extinction = this->WayExtinction(root, smoke.Cell(block, place));
     }
-    told.Ways[corner] = this->WayExtinction(root, cell);
-  }
-  told.Share = this->LargestShare(root, block, told.Ways, sums) *
-               static_cast<double>(this->Scene_.Lights().Lights().size());
-  // A weak light may be off by as much of the whole as the strongest; but the share is a bound only
-  // where the corners do tell of what lies between.
-  const double allowed =
-    std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / told.Share));
-  const double scale = this->Scene_.LargestScale();
-  for (const auto& share : WayChecks)
+    return extinction;
+  };
+  std::array<double, 8> corners;
+  // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
+  ways.Told = true;
+  for (int index = 0; index < 8 && ways.Told; ++index)
   {
-    std::array<int, 3> place;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
-    }
-    const std::int64_t cell = smoke.Cell(block, place);
-    const double there = Trilinear(told.Ways, BlockShare(block, place));
-    const double way = glm::length(root.Centre - smoke.CellCentre(cell));
-    if (std::abs(there - this->WayExtinction(root, cell)) * way * scale > allowed)
-    {
-      return std::nullopt;
-    }
+    ways.Told = smoke.Extinction(smoke.Cell(block, corner(index))) > 0.0F ||
+                smoke.MaximumExtinction() == 0.0F;
+    corners[index] = ways.Told ? walk(corner(index)) : 0.0;
   }
-  return told;
+  if (ways.Told)
+  {
+    ways.Share = this->LargestShare(
+      root, block, *std::min_element(corners.begin(), corners.end()), RoughWayTolerance, sums);
+    // A weak light may be off by as much of the whole as the strongest; but the share is a bound
+    // only where the corners do tell of what lies between.
+    const double allowed =
+      std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / ways.Share));
+    ways.Told = std::all_of(WayChecks.begin(), WayChecks.end(),
+      [&](const std::array<double, 3>& share)
+      {
+        std::array<int, 3> place;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
+        }
+        const double told = Trilinear(corners, BlockShare(block, place));
+        const double way = glm::length(root.Centre - smoke.CellCentre(smoke.Cell(block, place)));
+        return std::abs(told - walk(place)) * way * this->Scene_.LargestScale() <= allowed;
+      });
+  }
+  if (!ways.Told && !whole)
+  {
+    return std::nullopt;
+  }
+  ForEachCell(block,
+    [&](const std::array<int, 3>& place)
+    {
+      if (ways.Told)
+      {
+        ways.Extinction[PlaceIn(block, place)] = Trilinear(corners, BlockShare(block, place));
+      }
+      else
+      {
+        walk(place);
+      }
+    });
+  if (!ways.Told)
+  {
+    ways.Share = this->LargestShare(
+      root, block, *std::min_element(ways.Extinction.begin(), ways.Extinction.end()), 0.0, sums);
+  }
+  return ways;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(
@@ -171,13 +221,11 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = lights.Groups()[lights.Lights()[light]];
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
-  std::optional<Told> told;
-  if (skips && largest >= SmallestBlock)
-  {
-    told = this->BlockWays(root, block, sums);
-  }
+  const bool parts = largest > SmallestBlock;
+  const std::optional<BlockWays> ways =
+    skips ? this->WaysFrom(root, block, !parts, sums) : std::nullopt;
   BlockWork work;
-  if (!told && largest > SmallestBlock)
+  if (!ways && parts)
   {
     const int half = (largest + 1) / 2;
     for (int part = 0; part < 8; ++part)
@@ -200,40 +248,34 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
     }
     return work;
   }
-  if (told && told->Share < NegligibleShare)
+  if (ways && ways->Share < NegligibleShare)
   {
-    work.Negligible = static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
+    work.Negligible = CellsOf(block);
     return work;
   }
-  std::array<int, 3> place;
-  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
-  {
-    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+  ForEachCell(block,
+    [&](const std::array<int, 3>& place)
     {
-      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+      const std::int64_t cell = smoke.Cell(block, place);
+      if (smoke.Parts().Find(cell))
       {
-        const std::int64_t cell = smoke.Cell(block, place);
-        if (smoke.Parts().Find(cell))
-        {
-          // The parts of a cell are measured each by itself.
-          continue;
-        }
-        // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-        const std::optional<Spectrum> kept = told ? this->KeptFluence(light, cell) : std::nullopt;
-        const Spectrum value =
-          !told  ? this->CellFluence(light, cell)
-          : kept ? *kept
-                 : this->BoxFluence({light, false, Trilinear(told->Ways, BlockShare(block, place)),
-                                      told->Share < WeakShare},
-                     smoke.CellCentre(cell), smoke.CellSize(cell), 0);
-        work.Told += told ? 1 : 0;
-        for (int band = 0; band < this->Scene_.Bands(); ++band)
-        {
-          sums[cell][band] += value[band];
-        }
+        // The parts of a cell are measured each by itself.
+        return;
       }
-    }
-  }
+      // What is kept of a light near to the cell is taken from the sum again, to the same digits.
+      const std::optional<Spectrum> kept = ways ? this->KeptFluence(light, cell) : std::nullopt;
+      const Spectrum value =
+        !ways  ? this->CellFluence(light, cell)
+        : kept ? *kept
+               : this->BoxFluence(
+                   {light, false, ways->Extinction[PlaceIn(block, place)], ways->Share < WeakShare},
+                   smoke.CellCentre(cell), smoke.CellSize(cell), 0);
+      work.Told += ways && ways->Told ? 1 : 0;
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sums[cell][band] += value[band];
+      }
+    });
   return work;
 }
 

@@ -239,13 +239,13 @@ Spectrum DirectLight::BoxFluence(
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
   const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  // A box wholly behind the plate gets nothing.
+  if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
+  {
+    return {};
+  }
   if (splits > 0 && edge > BoxRatio * distance)
   {
-    // A box wholly behind the plate gets nothing.
-    if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
-    {
-      return {};
-    }
     Spectrum sum{};
     for (int part = 0; part < 8; ++part)
     {
@@ -292,7 +292,21 @@ Spectrum DirectLight::BoxFluence(
   {
     place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
   }
-  Spectrum value = this->Fluence(light, place);
+  BoxLight moved = light;
+  if (depth >= DeepestGauss && !light.Weak)
+  {
+    // Its light comes by ways beside that to the centre.
+    moved.Extinction.reset();
+  }
+  else if (light.Extinction && toCentre > 0.0)
+  {
+    // The way from there differs from that to the centre inside the box.
+    const double inside = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
+    const double way = glm::length(root.Centre - place);
+    moved.Extinction =
+      std::max(0.0, *light.Extinction * toCentre + inside * (way - toCentre)) / way;
+  }
+  Spectrum value = this->Fluence(moved, place);
   double curvature = 1.0;
   if (!close)
   {

@@ -3,14 +3,12 @@
 #include "DirectLight.h"
 #include "Errors.h"
 #include "NearLights.h"
+#include "ReportedLoop.h"
 #include "Scene.h"
 #include "Team.h"
 
 #include <algorithm>
 #include <atomic>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -20,9 +18,6 @@ namespace
 
 /// Cells along the edges of the blocks that share ways to the lights.
 constexpr int BlockEdge = 8;
-/// Tasks for each thread between two reports of progress, so that none of them waits long for
-/// others.
-constexpr std::size_t TasksAThread = 8;
 /// Shares of the work that are expected to be done after the cells that plates touch, after others
 /// near to lights, after the parts of cells, and after all cells.
 constexpr double DepositShare = 0.1;
@@ -65,31 +60,13 @@ DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, T
 template <class Body>
 void DirectSolve::ForOwn(std::size_t count, std::size_t grain, double from, double to, Body&& body)
 {
-  constexpr std::size_t steps = 50;
-  const std::size_t own = this->Team_.OwnCount(count);
-  const std::size_t busy = grain * TasksAThread * this->Arena_.max_concurrency();
-  const std::size_t chunk = std::max(busy, (own + steps - 1) / steps);
-  for (std::size_t begin = 0; begin < own; begin += chunk)
+  ReportedLoop(
+    this->Arena_, this->Team_.OwnCount(count), grain, this->Progress_,
+    [&](double done) { this->Progress_.Report(this->Share_ * (from + (to - from) * done)); },
+    [&](std::size_t i) { body(this->Team_.OwnItem(i)); });
+  if (this->Progress_.ShouldStop())
   {
-    const std::size_t end = std::min(own, begin + chunk);
-    this->Arena_.execute(
-      [&]
-      {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
-          [&](const tbb::blocked_range<std::size_t>& range)
-          {
-            for (std::size_t i = range.begin(); i < range.end() && !this->Progress_.ShouldStop();
-                 ++i)
-            {
-              body(this->Team_.OwnItem(i));
-            }
-          });
-      });
-    this->Progress_.Report(this->Share_ * (from + (to - from) * static_cast<double>(end) / own));
-    if (this->Progress_.ShouldStop())
-    {
-      throw Error("light field", "the work was stopped");
-    }
+    throw Error("light field", "the work was stopped");
   }
 }
 

@@ -1,15 +1,12 @@
 #include "FloorMap.h"
 
 #include "Errors.h"
+#include "ReportedLoop.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace smokevis
 {
@@ -144,27 +141,12 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
   const std::size_t last = std::min(places, options.End);
   const std::size_t own = last - std::min(last, options.First);
-  const std::size_t chunk = std::max<std::size_t>(8, own / 50);
-  for (std::size_t begin = options.First; begin < last; begin += chunk)
+  ReportedLoop(
+    arena, own, 1, progress, [&progress](double done) { progress.Report(done); },
+    [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped); });
+  if (progress.ShouldStop())
   {
-    const std::size_t end = std::min(last, begin + chunk);
-    arena.execute(
-      [&]
-      {
-        tbb::parallel_for(begin, end,
-          [&](std::size_t place)
-          {
-            if (!progress.ShouldStop())
-            {
-              MeasurePlace(view, options, place, map, skipped);
-            }
-          });
-      });
-    progress.Report(static_cast<double>(end - options.First) / static_cast<double>(own));
-    if (progress.ShouldStop())
-    {
-      throw Error("floor map", "the work was stopped");
-    }
+    throw Error("floor map", "the work was stopped");
   }
   const auto say = [&map](const char* what, std::size_t count, const char* why) {
     map.Report.push_back({what, static_cast<double>(count), why});

@@ -20,6 +20,7 @@
 #include <string>
 #include <tuple>
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -168,7 +169,7 @@ void Solver::ShareSums(std::vector<BatchState>& batches)
 int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
   std::vector<BatchState>& batches, std::uint64_t key)
 {
-  const PowerBalance balance(this->Scene_, sweep, band);
+  const PowerBalance balance(this->Scene_, sweep, band, this->Arena_);
   const auto restart = [&batches]
   { std::for_each(batches.begin(), batches.end(), [](BatchState& batch) { batch.Restart(); }); };
   const double limit = DriftShare * this->Options_.Tolerance;
@@ -200,7 +201,7 @@ int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
       this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
     }
     this->Follow(sweep, batches);
-    BlockMeans now(batches, this->Scene_, this->Field_, band);
+    BlockMeans now(batches, this->Scene_, this->Field_, band, this->Arena_);
     const double sent = balance.SentAgain(batches);
     const bool over = std::pow(sent, before) < UncountedShare * limit;
     const double shown = std::min(1.0, (1.0 - std::pow(sent, window)) / ShownShare);
@@ -373,26 +374,32 @@ void Solver::SolveMultiple(int band)
     }
     error = probes.RelativeError(batches);
   }
-  PowerBalance(this->Scene_, sweep, band).ScaleSums(batches);
+  PowerBalance(this->Scene_, sweep, band, this->Arena_).ScaleSums(batches);
   error = probes.RelativeError(batches);
   const int counted = batches.front().Counted;
-  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+  const auto keep = [&](std::vector<float> BatchState::*sums, std::size_t count, Lanes* lanes)
   {
-    Lanes& lanes = this->Field_.MultipleFluence[this->Field_.CellIndex(band, cell)];
-    for (int batch = 0; batch < Batches; ++batch)
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
+      [&](const tbb::blocked_range<std::size_t>& range)
+      {
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          const float* const sum = (batches[batch].*sums).data();
+          for (std::size_t i = range.begin(); i < range.end(); ++i)
+          {
+            lanes[i][batch] = sum[i] / static_cast<float>(counted);
+          }
+        }
+      });
+  };
+  this->Arena_.execute(
+    [&]
     {
-      lanes[batch] = batches[batch].FluenceSum[cell] / static_cast<float>(counted);
-    }
-  }
-  const std::size_t firstSide = this->Field_.PatchIndex(band, 0, 0);
-  for (std::size_t side = 0; side < 2 * this->Field_.Patches; ++side)
-  {
-    Lanes& lanes = this->Field_.MultipleIlluminance[firstSide + side];
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      lanes[batch] = batches[batch].IlluminanceSum[side] / static_cast<float>(counted);
-    }
-  }
+      keep(&BatchState::FluenceSum, this->Field_.Cells,
+        this->Field_.MultipleFluence.data() + this->Field_.CellIndex(band, 0));
+      keep(&BatchState::IlluminanceSum, 2 * this->Field_.Patches,
+        this->Field_.MultipleIlluminance.data() + this->Field_.PatchIndex(band, 0, 0));
+    });
   std::size_t plates = 0;
   std::size_t rays = 0;
   this->Arena_.execute(

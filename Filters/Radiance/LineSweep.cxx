@@ -484,36 +484,26 @@ double LineSweep::FirstSource() const
   return power;
 }
 
-double LineSweep::LaterSource(const BatchState& state) const
+LineSweep::Powers LineSweep::PowersOf(const BatchState& state) const
 {
-  double power = 0.0;
+  double met = 0.0;
   for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
   {
-    power += this->Scene_.Albedo() * this->Extinction_[cell] / this->InverseVolume_[cell] *
-             state.FluenceSum[cell];
+    met += this->Extinction_[cell] / this->InverseVolume_[cell] * state.FluenceSum[cell];
   }
+  Powers powers{
+    this->Scene_.Albedo() * met, state.EscapedSum + (1.0 - this->Scene_.Albedo()) * met};
   for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
   {
-    power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-             this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
+    const double reflectance = this->Scene_.PatchReflectance(side / 2)[this->Band_];
+    const double arrives =
+      this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
+    powers.SentAgain += reflectance * arrives;
+    powers.Lost += (1.0 - reflectance) * arrives;
   }
-  return power / state.Counted;
-}
-
-double LineSweep::Loss(const BatchState& state) const
-{
-  double power = state.EscapedSum;
-  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
-  {
-    power += (1.0 - this->Scene_.Albedo()) * this->Extinction_[cell] / this->InverseVolume_[cell] *
-             state.FluenceSum[cell];
-  }
-  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
-  {
-    power += (1.0 - this->Scene_.PatchReflectance(side / 2)[this->Band_]) *
-             this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
-  }
-  return power / state.Counted;
+  powers.SentAgain /= state.Counted;
+  powers.Lost /= state.Counted;
+  return powers;
 }
 
 } // namespace smokevis

@@ -114,10 +114,13 @@ public:
   /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
   /// again of direct light, and what flames, large lights and the sky emit.
   double FirstSource() const;
-  /// Power that surfaces and smoke send out again of the light of a state, and power that they
-  /// absorb or that leaves the scene; means over the sweeps that count [lm].
-  double LaterSource(const BatchState& state) const;
-  double Loss(const BatchState& state) const;
+  /// What becomes of the light of a state, means over the sweeps that count [lm].
+  struct Powers
+  {
+    /// What surfaces and smoke send out again, and what they absorb or leaves the scene.
+    double SentAgain = 0.0, Lost = 0.0;
+  };
+  Powers PowersOf(const BatchState& state) const;
 
 private:
   struct Buffers;

@@ -1,11 +1,12 @@
 #include "PowerBalance.h"
 
 #include "Errors.h"
-#include "LineSweep.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -47,10 +48,23 @@ bool HardlyLoses(const Scene& scene, int band)
 
 } // namespace
 
-PowerBalance::PowerBalance(const Scene& scene, const LineSweep& sweep, int band)
-    : Sweep_(sweep), Source_(sweep.FirstSource()), Sky_(scene.Sky() > 0.0),
+PowerBalance::PowerBalance(
+  const Scene& scene, const LineSweep& sweep, int band, tbb::task_arena& arena)
+    : Sweep_(sweep), Arena_(arena), Source_(sweep.FirstSource()), Sky_(scene.Sky() > 0.0),
       HardlyLoses_(HardlyLoses(scene, band))
 {
+}
+
+std::vector<LineSweep::Powers> PowerBalance::PowersOf(const std::vector<BatchState>& batches) const
+{
+  std::vector<LineSweep::Powers> powers(batches.size());
+  this->Arena_.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{0}, batches.size(),
+        [&](std::size_t i) { powers[i] = this->Sweep_.PowersOf(batches[i]); });
+    });
+  return powers;
 }
 
 PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<BatchState>& batches) const
@@ -62,10 +76,8 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<BatchState>& batch
   double squares = 0.0;
   double scaledSum = 0.0;
   double scaledSquares = 0.0;
-  for (const BatchState& batch : batches)
+  for (const auto& [later, own] : this->PowersOf(batches))
   {
-    const double own = this->Sweep_.Loss(batch);
-    const double later = this->Sweep_.LaterSource(batch);
     scales.Own.push_back(this->ScaleFor(own));
     loss += own;
     sent += this->Source_ + later;
@@ -95,10 +107,13 @@ double PowerBalance::SentAgain(const std::vector<BatchState>& batches) const
 {
   double later = 0.0;
   double loss = 0.0;
+  for (const auto& [own, lost] : this->PowersOf(batches))
+  {
+    later += own;
+    loss += lost;
+  }
   for (const BatchState& batch : batches)
   {
-    later += this->Sweep_.LaterSource(batch);
-    loss += this->Sweep_.Loss(batch);
     // Much of the sky's light meets nothing on its way through.
     loss -= this->Sky_ ? batch.EscapedSum / batch.Counted : 0.0;
   }
@@ -112,12 +127,17 @@ void PowerBalance::ScaleLatest(std::vector<BatchState>& batches) const
     return;
   }
   const Scales scales = this->ScalesOf(batches);
-  for (std::size_t i = 0; i < batches.size(); ++i)
-  {
-    const double scale = scales.Agree ? scales.Own[i] : scales.Common;
-    Multiply(batches[i].Fluence, scale);
-    Multiply(batches[i].Illuminance, scale);
-  }
+  this->Arena_.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{0}, batches.size(),
+        [&](std::size_t i)
+        {
+          const double scale = scales.Agree ? scales.Own[i] : scales.Common;
+          Multiply(batches[i].Fluence, scale);
+          Multiply(batches[i].Illuminance, scale);
+        });
+    });
 }
 
 void PowerBalance::ScaleSums(std::vector<BatchState>& batches) const
@@ -127,11 +147,20 @@ void PowerBalance::ScaleSums(std::vector<BatchState>& batches) const
     return;
   }
   const Scales scales = this->ScalesOf(batches);
-  for (std::size_t i = 0; i < batches.size() && scales.Agree; ++i)
+  if (!scales.Agree)
   {
-    Multiply(batches[i].FluenceSum, scales.Own[i]);
-    Multiply(batches[i].IlluminanceSum, scales.Own[i]);
+    return;
   }
+  this->Arena_.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{0}, batches.size(),
+        [&](std::size_t i)
+        {
+          Multiply(batches[i].FluenceSum, scales.Own[i]);
+          Multiply(batches[i].IlluminanceSum, scales.Own[i]);
+        });
+    });
 }
 
 } // namespace smokevis

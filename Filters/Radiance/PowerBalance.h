@@ -1,14 +1,16 @@
 // Holds a light field to the conservation of power: what is lost must be what is emitted.
 #pragma once
 
+#include "LineSweep.h"
+
 #include <vector>
+
+#include <tbb/task_arena.h>
 
 namespace smokevis
 {
 
-class LineSweep;
 class Scene;
-struct BatchState;
 
 /// Scales light to be in balance as a whole, which sums the series of reflections of its slowest
 /// mode at once. Each batch for itself where that makes them agree better; where light leaves the
@@ -17,7 +19,8 @@ struct BatchState;
 class PowerBalance
 {
 public:
-  PowerBalance(const Scene& scene, const LineSweep& sweep, int band);
+  /// @param arena whose threads work on the batches; must outlive this
+  PowerBalance(const Scene& scene, const LineSweep& sweep, int band, tbb::task_arena& arena);
 
   /// Share of the light that smoke and surfaces take up or let go which they send on again: its
   /// power to n is about the share that is sent on more than n times.
@@ -38,10 +41,12 @@ private:
     bool Agree = false;
   };
 
+  std::vector<LineSweep::Powers> PowersOf(const std::vector<BatchState>& batches) const;
   Scales ScalesOf(const std::vector<BatchState>& batches) const;
   double ScaleFor(double loss) const;
 
   const LineSweep& Sweep_;
+  tbb::task_arena& Arena_;
   /// What lines carry before any of it was tallied [lm].
   double Source_;
   bool Sky_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 namespace smokevis
 {
 
@@ -47,8 +49,8 @@ double VarianceOf(const std::vector<double>& values, double mean)
 
 } // namespace
 
-BlockMeans::BlockMeans(
-  const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band)
+BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scene,
+  const LightField& field, int band, tbb::task_arena& arena)
     : Counted_(batches.front().Counted)
 {
   // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little,
@@ -59,7 +61,7 @@ BlockMeans::BlockMeans(
                          : DarkShare / glm::length(scene.Upper() - scene.Lower());
   std::vector<Share> shares(field.Cells);
   const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
-  for (std::size_t i = 0; i < field.Cells; ++i)
+  const auto share = [&](std::size_t i)
   {
     const auto cell = static_cast<std::int64_t>(i);
     const Vec3 place = (smoke.CellCentre(cell) - smoke.Lower()) / extent;
@@ -71,9 +73,14 @@ BlockMeans::BlockMeans(
     }
     shares[i] = {
       block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.CellVolume(cell)};
-  }
-  this->Add(batches, &BatchState::FluenceSum, field.DirectFluence.data() + field.CellIndex(band, 0),
-    shares);
+  };
+  arena.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{0}, shares.size(), share);
+      this->Add(batches, &BatchState::FluenceSum,
+        field.DirectFluence.data() + field.CellIndex(band, 0), shares);
+    });
   shares.resize(2 * field.Patches);
   const std::size_t patchBlocks = std::min(MostPatchBlocks, shares.size());
   for (std::size_t side = 0; side < shares.size(); ++side)
@@ -82,8 +89,12 @@ BlockMeans::BlockMeans(
       scene.ExposedArea(side / 2, side % 2) *
         std::max(DarkShare, scene.PatchReflectance(side / 2)[band])};
   }
-  this->Add(batches, &BatchState::IlluminanceSum,
-    field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), shares);
+  arena.execute(
+    [&]
+    {
+      this->Add(batches, &BatchState::IlluminanceSum,
+        field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), shares);
+    });
   double all = 0.0;
   for (const Block& block : this->Blocks_)
   {
@@ -98,25 +109,38 @@ BlockMeans::BlockMeans(
   }
 }
 
-void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
+void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
   const float* direct, const std::vector<Share>& shares)
 {
-  const std::size_t first = this->Blocks_.size();
-  for (std::size_t i = 0; i < shares.size(); ++i)
+  std::size_t count = 0;
+  for (const Share& share : shares)
   {
-    const std::size_t index = first + shares[i].Block;
-    if (index >= this->Blocks_.size())
-    {
-      this->Blocks_.resize(index + 1, Block{0.0, std::vector<double>(batches.size(), 0.0), false});
-    }
-    Block& block = this->Blocks_[index];
-    block.Direct += shares[i].Weight * direct[i];
-    for (std::size_t batch = 0; batch < batches.size(); ++batch)
-    {
-      block.Multiple[batch] += shares[i].Weight * (batches[batch].*sums)[i] /
-                               static_cast<double>(std::max(1, batches[batch].Counted));
-    }
+    count = std::max(count, share.Block + 1);
   }
+  const std::size_t first = this->Blocks_.size();
+  this->Blocks_.resize(first + count, Block{0.0, std::vector<double>(batches.size(), 0.0), false});
+  const auto sums = [&](const float* light)
+  {
+    std::vector<double> sum(count, 0.0);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+    {
+      sum[shares[i].Block] += shares[i].Weight * light[i];
+    }
+    return sum;
+  };
+  // Each by one thread: the sums do not depend on the threads.
+  tbb::parallel_for(std::size_t{0}, batches.size() + 1,
+    [&](std::size_t batch)
+    {
+      const bool all = batch == batches.size();
+      const std::vector<double> sum = sums(all ? direct : (batches[batch].*values).data());
+      for (std::size_t block = 0; block < count; ++block)
+      {
+        Block& own = this->Blocks_[first + block];
+        (all ? own.Direct : own.Multiple[batch]) =
+          all ? sum[block] : sum[block] / std::max(1, batches[batch].Counted);
+      }
+    });
 }
 
 BlockMeans BlockMeans::Since(const BlockMeans& earlier) const

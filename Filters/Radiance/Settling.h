@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 namespace smokevis
 {
 
@@ -16,8 +18,9 @@ class BlockMeans
 public:
   BlockMeans() = default;
   /// From the running means of the batches; the direct light of the band is what it adds to.
-  BlockMeans(
-    const std::vector<BatchState>& batches, const Scene& scene, const LightField& field, int band);
+  /// @param arena whose threads work on the batches
+  BlockMeans(const std::vector<BatchState>& batches, const Scene& scene, const LightField& field,
+    int band, tbb::task_arena& arena);
 
   /// Those of the sweeps since earlier means of the same sums were taken.
   BlockMeans Since(const BlockMeans& earlier) const;
@@ -58,7 +61,7 @@ private:
     std::size_t Block = 0;
     double Weight = 0.0;
   };
-  void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums,
+  void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
     const float* direct, const std::vector<Share>& shares);
 
   /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
