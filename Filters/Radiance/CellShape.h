@@ -39,6 +39,12 @@ public:
       slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y + slope.Slope[2] * from.z);
   }
 
+  /// Slope of the logarithm along an axis in a cell [1/m].
+  double LogarithmSlope(std::int64_t cell, int axis) const
+  {
+    return this->Slopes_.empty() ? 0.0 : this->Slopes_[cell].Slope[axis];
+  }
+
 private:
   struct Slope
   {

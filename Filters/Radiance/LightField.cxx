@@ -9,6 +9,7 @@
 #include "Sampler.h"
 #include "ScatterBound.h"
 #include "Settling.h"
+#include "SlowLight.h"
 #include "Team.h"
 #include "VeilProbes.h"
 
@@ -45,10 +46,21 @@ constexpr double DriftShare = 0.7;
 /// Share of that which noise may hide where next to no light is sent on any more that could drift:
 /// the mean over two windows has half the noise of their difference.
 constexpr double HiddenShare = 2.0;
+/// A window shows of what has yet to settle the share that its sweeps do not send on any more.
+/// Where that is less than this, a drift counts for more than is seen of it.
+constexpr double ShownShare = 0.3;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
 /// been, and over 200 seeds the bars hold with this.
 constexpr double DriftErrors = 2.0;
+/// Standard errors of the veil that the light may be that has yet to build up, by how much is sent
+/// on. All values lack it, also those that are known best.
+constexpr double LackingErrors = 0.25;
+/// Share of the tolerance below which that error need not be: probes may see next to nothing but
+/// direct light.
+constexpr double LeastErrorShare = 0.05;
+/// Sweeps of a window after which light that still grows is not left to itself.
+constexpr int SlowWindow = 8;
 /// Shares of the progress bar.
 constexpr double DirectShare = 0.4;
 constexpr double SettleShare = 0.2;
@@ -149,6 +161,7 @@ void Solver::ShareSums(std::vector<BatchState>& batches)
     parts.push_back(Team::PartOf(owner, batch.IlluminanceSum.data(), batch.IlluminanceSum.size()));
     parts.push_back(Team::PartOf(owner, &batch.EscapedSum, 1));
     parts.push_back(Team::PartOf(owner, &batch.Counted, 1));
+    parts.push_back(Team::PartOf(owner, &batch.Watched, 1));
   }
   this->Team_.Share(parts);
 }
@@ -172,6 +185,7 @@ int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
     this->Progress_.Report(DirectShare + SettleShare * (1.0 - std::exp(-0.02 * done)));
   }
   restart();
+  SlowLight slow(this->Scene_, sweep, band);
   std::optional<BlockMeans> earlier;
   // Sweeps before those that the sums hold, and whether they have left so little light that a drift
   // would be over.
@@ -188,17 +202,29 @@ int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
     }
     this->Follow(sweep, batches);
     BlockMeans now(batches, this->Scene_, this->Field_, band, this->Arena_);
-    const bool over = std::pow(balance.SentAgain(batches), before) < UncountedShare * limit;
+    const double sent = balance.SentAgain(batches);
+    const bool over = std::pow(sent, before) < UncountedShare * limit;
+    const double shown = std::min(1.0, (1.0 - std::pow(sent, window)) / ShownShare);
     bool tolerable = false;
     bool drifts = true;
+    bool grows = false;
     if (earlier)
     {
       const BlockMeans::Drift drift =
         (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Options_.Tolerance);
       drifts = drift.LowerBound > 0.0;
-      tolerable = drift.UpperBound < limit || (over && !drifts && drift.Estimate < limit &&
-                                                drift.UpperBound < HiddenShare * limit);
-      if (tolerable && drift.Estimate <= DriftErrors * probes.RelativeError(batches))
+      grows = drift.LowerBound > limit && window >= SlowWindow;
+      tolerable =
+        drift.UpperBound < limit * (over ? 1.0 : shown) ||
+        (over && !drifts && drift.Estimate < limit && drift.UpperBound < HiddenShare * limit);
+      const double error =
+        std::max(probes.RelativeError(batches), LeastErrorShare * this->Options_.Tolerance);
+      // Sweeps without end would be needed to tell that noise is no drift: there the share does
+      // that the sums lack of what is sent on.
+      const double lacking =
+        std::pow(sent, before) / std::max(1.0, (1.0 - sent) * batches.front().Counted);
+      if (tolerable && (drift.Estimate <= DriftErrors * error ||
+                         (drift.IsNoise() && lacking <= LackingErrors * error)))
       {
         return done;
       }
@@ -224,10 +250,23 @@ int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
       window = done - before;
       continue;
     }
-    balance.ScaleLatest(batches);
+    if (slow.Balance(batches))
+    {
+      // What was seen before does not compare with that.
+      earlier.reset();
+      slow.Watch(batches, false);
+    }
+    else
+    {
+      balance.ScaleLatest(batches);
+      if (2 * window >= SlowWindow && (grows || sweep.Watched().empty()))
+      {
+        slow.Watch(batches, grows);
+      }
+      window = tolerable ? window : 2 * window;
+    }
     restart();
     before = done;
-    window = tolerable ? window : 2 * window;
   }
 }
 

@@ -23,6 +23,9 @@ constexpr double FewestShare = 0.25;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
 
+/// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
+constexpr float FewestHits = 0.25F;
+
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
 
@@ -56,6 +59,8 @@ struct LineSweep::Buffers
   std::vector<std::size_t> First;
   /// By how much the radiances of both directions together, where they come in, exceed the source.
   std::vector<float> Excess;
+  /// Radiance that comes to each crossing, along the line and against it; of watched surfaces only.
+  std::array<std::vector<float>, 2> Arriving;
 };
 
 LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectField& direct,
@@ -208,6 +213,10 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     }
   }
 
+  for (std::vector<float>& arriving : buffers.Arriving)
+  {
+    arriving.resize(this->Watched_.empty() ? 0 : crossings);
+  }
   const auto arrive = [&](const Hit& hit, float radiance)
   {
     const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
@@ -227,6 +236,10 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     if (part < crossings)
     {
       arrive(buffers.Crossings[part].Arrive, radiance);
+      if (!this->Watched_.empty())
+      {
+        buffers.Arriving[0][part] = radiance;
+      }
       radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
     }
   }
@@ -242,6 +255,10 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     if (part > 0)
     {
       arrive(buffers.Crossings[part - 1].Leave, radiance);
+      if (!this->Watched_.empty())
+      {
+        buffers.Arriving[1][part - 1] = radiance;
+      }
       radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive, direction);
     }
   }
@@ -252,6 +269,61 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     cell.Fluence +=
       weight * buffers.Length[i] *
       (buffers.Excess[i] * buffers.Escape[i] + (2.0F * buffers.Source[i] - cell.Expected));
+  }
+  if (!this->Watched_.empty())
+  {
+    this->TallyWatched(state, line.Weight, buffers, tallies);
+  }
+}
+
+float LineSweep::WatchedOutgoing(const BatchState& state, const Hit& hit) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const std::size_t side = 2 * patch + hit.Side;
+  return this->Watched_[side]
+           ? static_cast<float>(
+               this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>()) *
+               state.Illuminance[side]
+           : 0.0F;
+}
+
+void LineSweep::TallyWatched(
+  const BatchState& state, double weight, const Buffers& buffers, LineTallies& tallies) const
+{
+  const auto take = [&](const Hit& hit, float sent, float left, float all)
+  {
+    const bool watched = this->Watched_[2 * this->Scene_.Patch(hit) + hit.Side];
+    tallies.WatchedLost += weight * (watched ? sent - left : sent);
+    tallies.WatchedGained += watched ? weight * (all - left) : 0.0;
+  };
+  const std::size_t crossings = buffers.Crossings.size();
+  float first = 0.0F;
+  for (std::size_t part = 0; part <= crossings; ++part)
+  {
+    float through = 1.0F;
+    for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
+    {
+      through *= buffers.Transmittance[i];
+    }
+    float last = 0.0F;
+    if (part < crossings)
+    {
+      take(buffers.Crossings[part].Arrive, first, through * first, buffers.Arriving[0][part]);
+      last = this->WatchedOutgoing(state, buffers.Crossings[part].Arrive);
+    }
+    else
+    {
+      tallies.WatchedLost += weight * first;
+    }
+    if (part > 0)
+    {
+      take(buffers.Crossings[part - 1].Leave, last, through * last, buffers.Arriving[1][part - 1]);
+    }
+    else
+    {
+      tallies.WatchedLost += weight * last;
+    }
+    first = part < crossings ? this->WatchedOutgoing(state, buffers.Crossings[part].Leave) : 0.0F;
   }
 }
 
@@ -289,6 +361,8 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   }
   tallies.Illuminance.assign(illuminance.size(), 0.0F);
   tallies.Escaped = 0.0;
+  tallies.WatchedLost = 0.0;
+  tallies.WatchedGained = 0.0;
 }
 
 void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) const
@@ -350,16 +424,35 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     this->TraceLine(state, draw.Get(line), tallies, buffers);
   }
 
+  for (std::size_t side = 0; side < this->Watched_.size(); ++side)
+  {
+    const double held = this->Watched_[side]
+                          ? this->Scene_.ExposedArea(side / 2, side % 2) * state.Illuminance[side]
+                          : 0.0;
+    state.Watched.Held += held;
+    state.Watched.Lost += (1.0 - this->Scene_.PatchReflectance(side / 2)[this->Band_]) * held;
+  }
+  state.Watched.Lost += tallies.WatchedLost;
+  state.Watched.Gained += tallies.WatchedGained;
+  ++state.Watched.Sweeps;
   this->TakeFluence(tallies, this->ShareOf(thin), state);
+  ++state.Sweeps;
+  const float least = 1.0F / static_cast<float>(state.Sweeps);
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
     const double area = this->Scene_.ExposedArea(side / 2, side % 2);
-    if (area > 0.0)
+    if (!(area > 0.0))
     {
-      state.Illuminance[side] =
-        tallies.ExpectedIlluminance[side] + tallies.Illuminance[side] / static_cast<float>(area);
+      continue;
     }
-    state.IlluminanceSum[side] += state.Illuminance[side];
+    const float estimate =
+      tallies.ExpectedIlluminance[side] + tallies.Illuminance[side] / static_cast<float>(area);
+    // What few lines meet sends on the mean of as many sweeps as meet it about once: a light that
+    // is large as rarely as it is found would come back larger.
+    const float share =
+      std::clamp(this->ShareOf(thin) * this->SideHits_[side] / FewestHits, least, 1.0F);
+    state.Illuminance[side] += share * (estimate - state.Illuminance[side]);
+    state.IlluminanceSum[side] += estimate;
   }
   state.Share = this->ShareOf(thin);
   state.EscapedSum += tallies.Escaped;

@@ -8,12 +8,22 @@
 #include "ThickCells.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace smokevis
 {
 
 class DirectField;
+
+/// Sums over sweeps of the light that watched surfaces send on after they got it from others.
+struct WatchedLight
+{
+  /// Its power where it comes to them, before a sweep; what they take up of it or does not come
+  /// back to any of them in the sweep; and all other light that comes to them [lm].
+  double Held = 0.0, Lost = 0.0, Gained = 0.0;
+  int Sweeps = 0;
+};
 
 /// What one batch knows of the light field of one band; indices as in LightField, without the band.
 struct BatchState
@@ -26,6 +36,9 @@ struct BatchState
   /// Sum of what left the scene [lm], and how many sweeps the sums count.
   double EscapedSum = 0.0;
   int Counted = 0;
+  /// Sweeps that the latest estimate comes from.
+  int Sweeps = 0;
+  WatchedLight Watched;
 
   BatchState(std::size_t cells, std::size_t sides);
   /// Forgets the sums, not the latest estimate.
@@ -53,6 +66,8 @@ struct LineTallies
   std::vector<float> ExpectedIlluminance;
   /// Power that left the scene, not a difference [lm].
   double Escaped = 0.0;
+  /// As in WatchedLight, of lines alone [lm].
+  double WatchedLost = 0.0, WatchedGained = 0.0;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -74,6 +89,10 @@ public:
   std::size_t Lines() const { return this->Lines_.Count(); }
   /// Lets the sources vary inside the cells as the means of the batches' sums do.
   void Follow(const std::vector<BatchState>& batches) { this->Shape_.Follow(batches); }
+
+  /// Tallies from now on what light watched sides of patches send to each other; empty: none.
+  void Watch(std::vector<bool> sides) { this->Watched_ = std::move(sides); }
+  const std::vector<bool>& Watched() const { return this->Watched_; }
 
   const SourceShape& Shape() const { return this->Shape_; }
 
@@ -118,6 +137,11 @@ private:
   {
     return thin ? static_cast<float>(this->ThinLines()) / static_cast<float>(this->Lines()) : 1.0F;
   }
+  /// Tallies what light the line takes from watched sides, and to them.
+  void TallyWatched(
+    const BatchState& state, double weight, const Buffers& buffers, LineTallies& tallies) const;
+  /// Radiance that a watched side sends on of what others sent to it; 0 from all other sides.
+  float WatchedOutgoing(const BatchState& state, const Hit& hit) const;
   /// Takes the tallies of the cells into a state.
   /// @param share of a whole sweep's lines that were traced
   void TakeFluence(const LineTallies& tallies, float share, BatchState& state) const;
@@ -141,6 +165,7 @@ private:
   SourceShape Shape_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
+  std::vector<bool> Watched_;
 };
 
 } // namespace smokevis

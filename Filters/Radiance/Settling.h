@@ -34,6 +34,12 @@ public:
     double LowerBound = 0.0;
     double Estimate = 0.0;
     double UpperBound = 0.0;
+
+    /// Whether its square is less than a standard error of that.
+    bool IsNoise() const
+    {
+      return 2.0 * this->Estimate * this->Estimate < this->UpperBound * this->UpperBound;
+    }
   };
   /// Drift from an earlier window to this one.
   /// @param resolution relative error that need not be resolved

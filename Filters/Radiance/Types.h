@@ -32,6 +32,15 @@ struct alignas(64) Lanes
   float& operator[](int batch) { return this->Value[batch]; }
 };
 
+/// Adds a weight times a term, batch by batch.
+inline void Add(Lanes& sum, const Lanes& term, float weight)
+{
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    sum.Value[batch] += weight * term.Value[batch];
+  }
+}
+
 /// Mean of the batches.
 double Mean(const Lanes& lanes);
 /// Standard error of that mean, from the spread of the batches. So few know their spread roughly,

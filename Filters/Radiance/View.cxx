@@ -1,7 +1,7 @@
 #include "View.h"
 
 #include "DirectField.h"
-#include "OpenFaces.h"
+#include "ShapeNoise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +20,6 @@ constexpr double DeepestDepth = 60.0;
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
-
-void Add(Lanes& sum, const Lanes& term, float weight)
-{
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    sum.Value[batch] += weight * term.Value[batch];
-  }
-}
 
 } // namespace
 
@@ -68,6 +60,7 @@ struct View::Implementation
         [&](std::size_t cell) { means[cell] = static_cast<float>(Mean(lanes[cell])); });
       this->MultipleShape[band] =
         CellShape(scene, [&means](std::int64_t, std::int64_t cell) { return means[cell]; });
+      this->MultipleNoise[band] = ShapeNoise(scene, lanes, means, this->MultipleShape[band]);
     }
     this->FindLeak();
   }
@@ -83,6 +76,7 @@ struct View::Implementation
   /// Mean of the batches of the multiply scattered fluence of each cell [lx], and how it varies.
   std::array<std::vector<float>, 3> MultipleMeans;
   std::array<CellShape, 3> MultipleShape;
+  std::array<ShapeNoise, 3> MultipleNoise;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
 };
@@ -104,37 +98,10 @@ void View::Implementation::FindLeak()
 void View::Implementation::AddMultiple(
   std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const
 {
-  const Lanes* const lanes = this->Field.MultipleFluence.data() + this->Field.CellIndex(band, 0);
-  const double value = weight * this->MultipleShape[band].Value(cell, point);
-  Add(sum, lanes[cell], static_cast<float>(value));
-  // The slopes come from the neighbours' means, noise and all. The mean over the batches stays what
-  // it is if each has slopes of its own, to first order, and their spread then tells that noise.
-  const std::vector<float>& means = this->MultipleMeans[band];
-  const OpenFaces& open = this->TheScene.Open();
-  const Medium& smoke = this->TheScene.Smoke();
-  const Vec3 from = (point - smoke.CellCentre(cell)) / smoke.CellSize(cell);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::array<std::int64_t, 2> others = {cell, cell};
-    int apart = 0;
-    for (const int side : {0, 1})
-    {
-      const std::int64_t other = open.Neighbour(cell, axis, side);
-      if (other >= 0 && means[other] > 0.0F)
-      {
-        others[side] = other;
-        ++apart;
-      }
-    }
-    // Slopes that are cut off do not follow noise.
-    const auto [least, most] = std::minmax(means[others[0]], means[others[1]]);
-    if (apart > 0 && most < std::exp(CellShape::SteepestChange * apart) * least)
-    {
-      const double share = value * means[cell] * from[axis] / apart;
-      Add(sum, lanes[others[1]], static_cast<float>(share / means[others[1]]));
-      Add(sum, lanes[others[0]], static_cast<float>(-share / means[others[0]]));
-    }
-  }
+  const double there = weight * this->MultipleShape[band].Value(cell, point);
+  Add(
+    sum, this->Field.MultipleFluence[this->Field.CellIndex(band, cell)], static_cast<float>(there));
+  this->MultipleNoise[band].Add(cell, point, there, sum);
 }
 
 View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)

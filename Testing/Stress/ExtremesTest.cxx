@@ -4,6 +4,7 @@
 #include "StressScenes.h"
 #include "TestReport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -173,6 +174,53 @@ TEST(Extremes, HardlyAnyLightIsLost)
         std::printf("%s: %s\n", name.c_str(), error.what());
       }
     }
+  }
+}
+
+// A closed white box around a faint lamp, in a room that a bright one lights: light in the box goes
+// to and fro a thousand times, and is next to nothing of all there is. What the lamp gives is what
+// the box takes up in the end, and what stands outside does not change.
+TEST(Extremes, WhiteBoxAroundLamp)
+{
+  report::Head("Power that closed white boxes take up of the lamps in them [lm]");
+  for (const double reflectance : {0.99, 0.999})
+  {
+    const std::string name = "box that loses " + std::to_string(1.0 - reflectance);
+    SCOPED_TRACE(name);
+    SceneDescription scene = ClosedBox(0.0, 0.9, 0.1);
+    const std::size_t first = scene.Surfaces.TriangleCell.back() + 1;
+    scenes::AddBlock(scene.Surfaces, {0.4, 0.3, 0.3}, {0.8, 0.7, 0.7}, 0.4, reflectance);
+    scene.Emitters.push_back(
+      scenes::Plate({0.6, 0.5, 0.65}, {0, 0, -1}, {1, 0, 0}, 0.05, 0.05, 0.1, reflectance));
+    const Solved solved(scene, 0.03);
+    const Scene& made = *solved.TheScene;
+    const auto absorbed = [&](std::size_t patch, int side)
+    {
+      const Estimate illuminance = solved.Illuminance({patch}, side);
+      const double weight = (1.0 - made.PatchReflectance(patch)[0]) * made.ExposedArea(patch, side);
+      return Estimate{weight * illuminance.Mean, weight * illuminance.StandardError};
+    };
+    // The insides of the box see each other: their errors go together. Both sides of the lamp.
+    Estimate sum;
+    for (std::size_t patch = first; patch < made.SurfacePatches(); ++patch)
+    {
+      const Estimate own = absorbed(patch, 1);
+      sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
+    }
+    for (const int side : {0, 1})
+    {
+      const Estimate own = absorbed(made.Patches() - 1, side);
+      sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
+    }
+    const double given = made.Lights().CellFlux(made.Lights().Cells().size() - 1, 0);
+    report::Relative(name, given, sum.Mean, 0.03, sum.StandardError);
+    const auto sweeps = [](const Solved& field)
+    {
+      const auto found = std::find_if(field.Field->Report.begin(), field.Field->Report.end(),
+        [](const WorkItem& item) { return item.What.find("counted") != std::string::npos; });
+      return found->Count;
+    };
+    EXPECT_LT(sweeps(solved), 200.0);
   }
 }
 

@@ -1,0 +1,101 @@
+// How a field varies inside cells, and the noise that this has of the neighbours.
+#include "CellShape.h"
+#include "Scene.h"
+#include "ShapeNoise.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Three cells in a row along x.
+Scene Row()
+{
+  SceneDescription description;
+  SmokeGrid grid;
+  grid.Name = "row";
+  grid.Nodes = {{{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0}, {0.0, 1.0}}};
+  grid.Extinction.assign(3, 1.0F);
+  description.Albedo = 0.5;
+  description.Grids = {grid};
+  EmitterCell lamp;
+  lamp.Vertices = {{1.4, 0.4, 0.9}, {1.4, 0.6, 0.9}, {1.6, 0.6, 0.9}, {1.6, 0.4, 0.9}};
+  lamp.Luminance = {1.0, 1.0, 1.0};
+  description.Emitters = {lamp};
+  return Scene(description);
+}
+
+/// A value of a mean, a batch each, of a standard deviation that is given as a share.
+Lanes Noisy(double mean, double deviation, int phase)
+{
+  Lanes lanes;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    // Sixteen cosines have the mean 0 and the mean square 1 / 2.
+    lanes[batch] = static_cast<float>(
+      mean * (1.0 + deviation * std::sqrt(2.0) *
+                      std::cos(2.0 * std::numbers::pi * phase * batch / Batches)));
+  }
+  return lanes;
+}
+
+Lanes ValueAt(const Scene& scene, const std::vector<Lanes>& field, const Vec3& point)
+{
+  std::vector<float> means;
+  for (const Lanes& lanes : field)
+  {
+    means.push_back(static_cast<float>(Mean(lanes)));
+  }
+  const CellShape shape(scene, [&](std::int64_t, std::int64_t cell) { return means[cell]; });
+  const double weight = shape.Value(1, point);
+  Lanes value;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    value[batch] = static_cast<float>(weight * field[1][batch]);
+  }
+  ShapeNoise(scene, field.data(), means, shape).Add(1, point, weight, value);
+  return value;
+}
+
+// What batches say of a place between the centres of two cells is what fields made of each batch
+// alone have there, where the noise is small enough for the logarithm to be straight.
+TEST(ShapeNoise, IsThatOfFieldsOfEachBatch)
+{
+  const Scene scene = Row();
+  const std::vector<Lanes> field = {
+    Noisy(5.0, 0.003, 1), Noisy(2.0, 0.0005, 2), Noisy(0.5, 0.002, 3)};
+  for (const double x : {1.0, 1.3, 1.5, 1.9})
+  {
+    const Vec3 point(x, 0.5, 0.5);
+    const Lanes value = ValueAt(scene, field, point);
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      const CellShape own(
+        scene, [&](std::int64_t, std::int64_t cell) { return field[cell][batch]; });
+      const double expected = field[1][batch] * own.Value(1, point);
+      // The second order is about the square of the largest deviation.
+      EXPECT_NEAR(value[batch] / expected, 1.0, 3e-5) << "x = " << x << ", batch " << batch;
+    }
+  }
+}
+
+// Beside a cell without light, and one so bright that the slope is cut off, no noise is added,
+// which would be of no measure.
+TEST(ShapeNoise, LeavesCutOffSlopes)
+{
+  const Scene scene = Row();
+  for (const double beside : {0.0, 1e-19, 1e15})
+  {
+    const std::vector<Lanes> field = {
+      Noisy(beside, 0.5, 1), Noisy(2.0, 0.003, 2), Noisy(beside * beside, 0.5, 3)};
+    const Lanes value = ValueAt(scene, field, {1.9, 0.5, 0.5});
+    EXPECT_NEAR(StandardError(value) / Mean(value), FewBatches * 0.003 / std::sqrt(15.0), 1e-6);
+  }
+}
+
+} // namespace
