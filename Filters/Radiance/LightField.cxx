@@ -49,6 +49,9 @@ constexpr double HiddenShare = 2.0;
 /// A window shows of what has yet to settle the share that its sweeps do not send on any more.
 /// Where that is less than this, a drift counts for more than is seen of it.
 constexpr double ShownShare = 0.3;
+/// Of how little of a drift is seen at least: what thick cells send to themselves is sent on, too,
+/// but waits for no sweeps.
+constexpr double LeastShown = 0.2;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
 /// been, and over 200 seeds the bars hold with this.
@@ -204,7 +207,7 @@ int Solver::Settle(LineSweep& sweep, int band, const VeilProbes& probes,
     BlockMeans now(batches, this->Scene_, this->Field_, band, this->Arena_);
     const double sent = balance.SentAgain(batches);
     const bool over = std::pow(sent, before) < UncountedShare * limit;
-    const double shown = std::min(1.0, (1.0 - std::pow(sent, window)) / ShownShare);
+    const double shown = std::clamp((1.0 - std::pow(sent, window)) / ShownShare, LeastShown, 1.0);
     bool tolerable = false;
     bool drifts = true;
     bool grows = false;
