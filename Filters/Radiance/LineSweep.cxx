@@ -108,6 +108,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
     this->SideHits_[side] = static_cast<float>(
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), inside[side / 2]));
   }
+  this->Groups_ = PatchGroups(scene, band, this->SideHits_);
 }
 
 float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const
@@ -438,17 +439,18 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
   this->TakeFluence(tallies, this->ShareOf(thin), state);
   ++state.Sweeps;
   const float least = 1.0F / static_cast<float>(state.Sweeps);
+  std::vector<float>& estimates = tallies.ExpectedIlluminance;
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
     const double area = this->Scene_.ExposedArea(side / 2, side % 2);
-    if (!(area > 0.0))
-    {
-      continue;
-    }
-    const float estimate =
-      tallies.ExpectedIlluminance[side] + tallies.Illuminance[side] / static_cast<float>(area);
-    // What few lines meet sends on the mean of as many sweeps as meet it about once: a light that
-    // is large as rarely as it is found would come back larger.
+    estimates[side] += area > 0.0 ? tallies.Illuminance[side] / static_cast<float>(area) : 0.0F;
+  }
+  this->Groups_.Average(estimates);
+  for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
+  {
+    const float estimate = estimates[side];
+    // What few lines meet sends on a mean of sweeps: a light that is large as rarely as it is found
+    // would come back larger.
     const float share =
       std::clamp(this->ShareOf(thin) * this->SideHits_[side] / FewestHits, least, 1.0F);
     state.Illuminance[side] += share * (estimate - state.Illuminance[side]);

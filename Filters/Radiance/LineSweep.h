@@ -2,6 +2,7 @@
 #pragma once
 
 #include "GlobalLines.h"
+#include "PatchGroups.h"
 #include "LightField.h"
 #include "Scene.h"
 #include "SourceShape.h"
@@ -165,6 +166,7 @@ private:
   SourceShape Shape_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
+  PatchGroups Groups_;
   std::vector<bool> Watched_;
 };
 

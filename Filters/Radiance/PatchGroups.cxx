@@ -1,0 +1,210 @@
+#include "PatchGroups.h"
+
+#include "Scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Sides that fewer lines meet in a sweep are put together until about so many do. Each patch alone
+/// is what a sweep's lines are counted for (SweepLines), as far as there are not too many.
+constexpr float FewestHits = 0.7F;
+constexpr double GroupHits = 4.0;
+/// Share of the scene's size that corners of neighbours may lie apart.
+constexpr double SameCorner = 1e-7;
+
+/// Where a patch lies, and whom it may be put together with.
+struct Place
+{
+  Vec3 Centre{0.0}, Normal{0.0};
+  double Area = 0.0;
+};
+
+/// Binary exponent of the edge of the cubes that groups are cut by, the cube, the axis and the
+/// sense that they mainly face, and their reflectance.
+using Kind = std::tuple<int, std::array<std::int64_t, 3>, int, double>;
+
+Kind KindOf(const Place& place, double hits, double reflectance)
+{
+  const int scale =
+    static_cast<int>(std::lround(std::log2(std::sqrt(GroupHits * place.Area / hits))));
+  const double edge = std::exp2(scale);
+  std::array<std::int64_t, 3> cube;
+  int facing = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cube[axis] = std::llround(std::floor(place.Centre[axis] / edge));
+    facing = std::abs(place.Normal[axis]) > std::abs(place.Normal[facing]) ? axis : facing;
+  }
+  return {scale, cube, 2 * facing + (place.Normal[facing] > 0.0 ? 1 : 0), reflectance};
+}
+
+/// Sets of patches that hang together.
+class Sets
+{
+public:
+  explicit Sets(std::size_t count) : Parent_(count)
+  {
+    std::iota(this->Parent_.begin(), this->Parent_.end(), std::size_t{0});
+  }
+
+  std::size_t Find(std::size_t patch)
+  {
+    while (this->Parent_[patch] != patch)
+    {
+      this->Parent_[patch] = this->Parent_[this->Parent_[patch]];
+      patch = this->Parent_[patch];
+    }
+    return patch;
+  }
+  void Join(std::size_t a, std::size_t b) { this->Parent_[this->Find(a)] = this->Find(b); }
+
+private:
+  std::vector<std::size_t> Parent_;
+};
+
+} // namespace
+
+PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
+{
+  const std::size_t patches = scene.SurfacePatches();
+  std::vector<Place> places(patches);
+  const auto small = [&](std::size_t patch)
+  {
+    const float most = std::max(hits[2 * patch], hits[2 * patch + 1]);
+    return most > 0.0F && most < FewestHits;
+  };
+  scene.ForEachTriangle(
+    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    {
+      if (patch >= patches || !small(patch))
+      {
+        return;
+      }
+      const Vec3 normal = 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      const double area = glm::length(normal);
+      places[patch].Area += area;
+      places[patch].Normal += normal;
+      places[patch].Centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
+    });
+  // Patches of one kind that share a corner.
+  std::map<Kind, std::vector<std::uint32_t>> kinds;
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    Place& place = places[patch];
+    if (place.Area > 0.0)
+    {
+      place.Centre /= place.Area;
+      kinds[KindOf(place, std::max(hits[2 * patch], hits[2 * patch + 1]),
+              scene.PatchReflectance(patch)[band])]
+        .push_back(static_cast<std::uint32_t>(patch));
+    }
+  }
+  if (kinds.empty())
+  {
+    return;
+  }
+  std::vector<std::uint32_t> kindOf(patches, 0);
+  std::uint32_t number = 0;
+  for (const auto& [kind, members] : kinds)
+  {
+    ++number;
+    for (const std::uint32_t patch : members)
+    {
+      kindOf[patch] = number;
+    }
+  }
+  struct Corner
+  {
+    std::array<std::int64_t, 3> Place;
+    std::uint32_t Kind, Patch;
+    bool operator<(const Corner& other) const
+    {
+      return std::tie(this->Kind, this->Place) < std::tie(other.Kind, other.Place);
+    }
+  };
+  std::vector<Corner> all;
+  const double grain = SameCorner * glm::length(scene.Upper() - scene.Lower());
+  scene.ForEachTriangle(
+    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    {
+      for (const Vec3& corner : corners)
+      {
+        if (patch < patches && kindOf[patch] > 0)
+        {
+          const Vec3 place = (corner - scene.Lower()) / grain;
+          all.push_back({{std::llround(place.x), std::llround(place.y), std::llround(place.z)},
+            kindOf[patch], static_cast<std::uint32_t>(patch)});
+        }
+      }
+    });
+  std::sort(all.begin(), all.end());
+  Sets sets(patches);
+  for (std::size_t i = 1; i < all.size(); ++i)
+  {
+    if (!(all[i - 1] < all[i]))
+    {
+      sets.Join(all[i - 1].Patch, all[i].Patch);
+    }
+  }
+  std::map<std::size_t, std::vector<std::uint32_t>> groups;
+  for (std::size_t patch = 0; patch < patches; ++patch)
+  {
+    if (kindOf[patch] > 0)
+    {
+      groups[sets.Find(patch)].push_back(static_cast<std::uint32_t>(patch));
+    }
+  }
+  for (const auto& [root, members] : groups)
+  {
+    for (int side = 0; side < 2 && members.size() > 1; ++side)
+    {
+      double area = 0.0;
+      float together = 0.0F;
+      for (const std::uint32_t patch : members)
+      {
+        area += scene.ExposedArea(patch, side);
+        together += hits[2 * patch + side];
+      }
+      if (!(area > 0.0))
+      {
+        continue;
+      }
+      this->First_.push_back(this->Sides_.size());
+      for (const std::uint32_t patch : members)
+      {
+        this->Sides_.push_back(2 * patch + side);
+        this->Shares_.push_back(static_cast<float>(scene.ExposedArea(patch, side) / area));
+        hits[2 * patch + side] = together;
+      }
+    }
+  }
+  this->First_.push_back(this->Sides_.size());
+}
+
+void PatchGroups::Average(std::vector<float>& illuminance) const
+{
+  for (std::size_t group = 1; group < this->First_.size(); ++group)
+  {
+    double mean = 0.0;
+    for (std::size_t i = this->First_[group - 1]; i < this->First_[group]; ++i)
+    {
+      mean += this->Shares_[i] * illuminance[this->Sides_[i]];
+    }
+    for (std::size_t i = this->First_[group - 1]; i < this->First_[group]; ++i)
+    {
+      illuminance[this->Sides_[i]] = static_cast<float>(mean);
+    }
+  }
+}
+
+} // namespace smokevis
