@@ -137,6 +137,10 @@ private:
   Spectrum Fluence(const BoxLight& light, const Vec3& point) const;
   Spectrum BoxFluence(
     const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
+  /// Mean extinction along the way from a place in a box, which differs from the way to its centre
+  /// inside the box alone, where that is known [1/m].
+  std::optional<double> ExtinctionFrom(
+    const BoxLight& light, const Vec3& centre, const Vec3& place) const;
   /// Largest optical depth along an edge of a box, of any band.
   double BoxDepth(const Vec3& centre, const Vec3& size) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;

@@ -13,7 +13,7 @@ namespace smokevis
 namespace
 {
 
-/// Cells along the edges of the smallest blocks, error of an
+/// Cells along the edges of the smallest block in which ways tell of each other, error of an
 /// optical depth that is told so, that of the weakest lights, and where in the block it is
 /// measured.
 constexpr int SmallestBlock = 4;
@@ -162,7 +162,7 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   };
   std::array<double, 8> corners;
   // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
-  ways.Told = true;
+  ways.Told = std::max({block.Size[0], block.Size[1], block.Size[2]}) >= SmallestBlock;
   for (int index = 0; index < 8 && ways.Told; ++index)
   {
     ways.Told = smoke.Extinction(smoke.Cell(block, corner(index))) > 0.0F ||

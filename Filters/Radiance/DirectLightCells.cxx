@@ -298,13 +298,9 @@ Spectrum DirectLight::BoxFluence(
     // Its light comes by ways beside that to the centre.
     moved.Extinction.reset();
   }
-  else if (light.Extinction && toCentre > 0.0)
+  else
   {
-    // The way from there differs from that to the centre inside the box.
-    const double inside = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
-    const double way = glm::length(root.Centre - place);
-    moved.Extinction =
-      std::max(0.0, *light.Extinction * toCentre + inside * (way - toCentre)) / way;
+    moved.Extinction = this->ExtinctionFrom(light, centre, place);
   }
   Spectrum value = this->Fluence(moved, place);
   double curvature = 1.0;
@@ -339,6 +335,22 @@ Spectrum DirectLight::BoxFluence(
   return value;
 }
 
+std::optional<double> DirectLight::ExtinctionFrom(
+  const BoxLight& light, const Vec3& centre, const Vec3& place) const
+{
+  const EmitterSet& lights = this->Scene_.Lights();
+  const Vec3& target = lights.Groups()[lights.Lights()[light.Index]].Centre;
+  const double toCentre = glm::length(target - centre);
+  const double way = glm::length(target - place);
+  if (!light.Extinction || !(way > 0.0))
+  {
+    return light.Extinction;
+  }
+  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
+  const double inside = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
+  return std::max(0.0, *light.Extinction * toCentre + inside * (way - toCentre)) / way;
+}
+
 double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
 {
   const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
@@ -361,7 +373,9 @@ Spectrum DirectLight::GaussFluence(
   {
     for (const GaussPlace& place : places)
     {
-      const Spectrum value = this->Fluence(light, place.Point);
+      BoxLight moved = light;
+      moved.Extinction = this->ExtinctionFrom(light, centre, place.Point);
+      const Spectrum value = this->Fluence(moved, place.Point);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += place.Weight * value[band];

@@ -358,6 +358,7 @@ void Solver::SolveMultiple(int band)
   const std::uint64_t key = Mix(this->Options_.Seed) + 0x100000ULL * (band + 1);
   this->LinesABatch_ = 0;
   int done = this->Settle(sweep, band, probes, batches, key);
+  sweep.Watch({});
   const int settling = done - batches.front().Counted;
   double error = probes.RelativeError(batches);
   while (error > ErrorShare * this->Options_.Tolerance && done < MostSweeps)

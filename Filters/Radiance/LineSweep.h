@@ -2,8 +2,8 @@
 #pragma once
 
 #include "GlobalLines.h"
-#include "PatchGroups.h"
 #include "LightField.h"
+#include "PatchGroups.h"
 #include "Scene.h"
 #include "SourceShape.h"
 #include "ThickCells.h"

@@ -47,7 +47,10 @@ void ReportedLoop(tbb::task_arena& arena, std::size_t count, std::size_t grain,
         },
         tbb::simple_partitioner());
     });
-  report(1.0);
+  if (!progress.ShouldStop())
+  {
+    report(1.0);
+  }
 }
 
 } // namespace smokevis

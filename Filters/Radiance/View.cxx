@@ -65,6 +65,10 @@ struct View::Implementation
     this->FindLeak();
   }
 
+  /// Noises point to means and shapes.
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
   void FindLeak();
   /// Adds weight times the batches of the fluence at a point of a cell.
   void AddMultiple(std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const;

@@ -214,6 +214,7 @@ TEST(Extremes, WhiteBoxAroundLamp)
     }
     const double given = made.Lights().CellFlux(made.Lights().Cells().size() - 1, 0);
     report::Relative(name, given, sum.Mean, 0.03, sum.StandardError);
+    EXPECT_LT(sum.StandardError, 0.1 * given);
     const auto sweeps = [](const Solved& field)
     {
       const auto found = std::find_if(field.Field->Report.begin(), field.Field->Report.end(),
@@ -221,6 +222,40 @@ TEST(Extremes, WhiteBoxAroundLamp)
       return found->Count;
     };
     EXPECT_LT(sweeps(solved), 200.0);
+  }
+}
+
+// White walls in triangles far finer than lines meet one by one are as bright as in coarse patches:
+// what a line brings to one of them once in many sweeps must not come back larger.
+TEST(Extremes, FinelyTriangulatedWhiteWalls)
+{
+  const auto solve = [](double patch)
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.5;
+    const Vec3 upper(4, 1, 1);
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {16, 4, 4}, 0.1)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, patch, 0.9);
+    scene.Emitters = {
+      scenes::Plate({0.5, 0.5, 0.99}, {0, 0, -1}, {1, 0, 0}, 0.2, 0.2, 1000.0, 0.9)};
+    return Solved(scene, patch < 0.1 ? 0.1 : 0.01);
+  };
+  const Solved coarse = solve(0.25);
+  const Solved fine = solve(0.02);
+  report::Head("Mean fluence at both ends of a white corridor, coarse and fine patches [lx]");
+  for (const std::int64_t column : {std::int64_t{0}, std::int64_t{14}})
+  {
+    std::vector<std::int64_t> cells;
+    for (std::int64_t i = 0; i < 32; ++i)
+    {
+      cells.push_back(column + i % 2 + 16 * (i / 2));
+    }
+    const Estimate expected = coarse.Fluence(cells);
+    const Estimate value = fine.Fluence(cells);
+    EXPECT_LT(value.StandardError, 0.1 * expected.Mean);
+    // Patches of a quarter of the corridor's width are good to some percent.
+    report::Relative("column " + std::to_string(column), expected.Mean, value.Mean, 0.05,
+      std::hypot(expected.StandardError, value.StandardError));
   }
 }
 

@@ -41,8 +41,9 @@ struct Tally
   std::string SlowestName;
 };
 
-/// Share of the tolerance that the solver lets light drift by, about, however small error bars are.
-constexpr double DriftShare = 0.02;
+/// Share of the tolerance that may be left to drift, besides the noise that error bars tell. Where
+/// they are small, the solver's rule lets up to a tenth of the tolerance pass.
+constexpr double LeftToDrift = 0.02;
 
 /// Share of the brightest emitter below which no luminance is asked for, as the solver's probes
 /// have it.
@@ -79,7 +80,7 @@ void CompareSeeds(const Solved& a, const Solved& b, const stress::StressScene& s
   {
     brightest = std::max(brightest, cell.Luminance[0]);
   }
-  const double drift = DriftShare * scene.Tolerance;
+  const double drift = LeftToDrift * scene.Tolerance;
   const double faintest = FaintestShare * brightest;
   Pcg32 random(seed, 2);
   for (int i = 0; i < 3; ++i)

@@ -52,14 +52,14 @@ public:
     }
   }
 
-  /// As many as a normal law says lie within 1, 2 and 3; Student's t of sixteen batches, spread so
-  /// that it does at 2, has 70.7 and 99.5 % at the others. Three standard deviations of the count
-  /// are allowed. The mean may be off by its
-  /// own noise and, since lines are counted before the light has settled for good, by a quarter of
-  /// what a single error bar says: that changes the shares by less than three hundredths.
+  /// Student's t of sixteen batches, spread so that as many lie within 2 as a normal law says, has
+  /// 70.7, 95.45 and 99.5 % within 1, 2 and 3. Three standard deviations of the count are allowed.
+  /// The mean may be off by its own noise and, since lines are counted before the light has settled
+  /// for good, by a quarter of what a single error bar says: that changes the shares by less than
+  /// three hundredths.
   void Judge() const
   {
-    constexpr double Expected[3] = {0.6827, 0.9545, 0.9973};
+    constexpr double Expected[3] = {0.7073, 0.9545, 0.9949};
     for (int limit = 0; limit < 3; ++limit)
     {
       const double p = Expected[limit];
