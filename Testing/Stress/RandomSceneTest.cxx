@@ -41,10 +41,6 @@ struct Tally
   std::string SlowestName;
 };
 
-/// Share of the tolerance that may be left to drift, besides the noise that error bars tell. Where
-/// they are small, the solver's rule lets up to a tenth of the tolerance pass.
-constexpr double LeftToDrift = 0.02;
-
 /// Share of the brightest emitter below which no luminance is asked for, as the solver's probes
 /// have it.
 constexpr double FaintestShare = 1e-7;
@@ -52,11 +48,10 @@ constexpr double FaintestShare = 1e-7;
 /// Two estimates of one number differ by more than three joint standard errors in 0.5 % of all
 /// cases (Student's t with 30 degrees of freedom).
 /// @param faintest below which they do not count
-/// @param drift relative standard error besides that of noise
-void Compare(const Estimate& a, const Estimate& b, double faintest, double drift, Tally& tally)
+void Compare(const Estimate& a, const Estimate& b, double faintest, Tally& tally)
 {
-  const double error = std::hypot(a.StandardError, b.StandardError, drift * a.Mean);
-  if (a.StandardError + b.StandardError <= 0.0 || std::max(a.Mean, b.Mean) < faintest)
+  const double error = std::hypot(a.StandardError, b.StandardError);
+  if (error <= 0.0 || std::max(a.Mean, b.Mean) < faintest)
   {
     return;
   }
@@ -80,19 +75,18 @@ void CompareSeeds(const Solved& a, const Solved& b, const stress::StressScene& s
   {
     brightest = std::max(brightest, cell.Luminance[0]);
   }
-  const double drift = LeftToDrift * scene.Tolerance;
   const double faintest = FaintestShare * brightest;
   Pcg32 random(seed, 2);
   for (int i = 0; i < 3; ++i)
   {
     const Ray ray = DrawRay(scene.Eye, random);
-    Compare(a.Luminance(ray), b.Luminance(ray), faintest, drift, tally);
+    Compare(a.Luminance(ray), b.Luminance(ray), faintest, tally);
     if (const std::size_t cells = a.TheScene->Smoke().Cells(); cells > 0)
     {
       const std::vector<std::int64_t> cell = {
         static_cast<std::int64_t>(random.Uniform() * static_cast<double>(cells))};
       // From all directions.
-      Compare(a.Fluence(cell), b.Fluence(cell), 4.0 * std::numbers::pi * faintest, drift, tally);
+      Compare(a.Fluence(cell), b.Fluence(cell), 4.0 * std::numbers::pi * faintest, tally);
     }
   }
 }
