@@ -1,9 +1,9 @@
 #include "LineSweep.h"
 
 #include "DirectField.h"
+#include "LineChoice.h"
 #include "LinePieces.h"
 #include "Sampler.h"
-#include "SweepLines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,20 +31,6 @@ constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
 
 } // namespace
 
-BatchState::BatchState(std::size_t cells, std::size_t sides)
-    : Fluence(cells, 0.0F), Illuminance(sides, 0.0F), FluenceSum(cells, 0.0F),
-      IlluminanceSum(sides, 0.0F)
-{
-}
-
-void BatchState::Restart()
-{
-  std::fill(this->FluenceSum.begin(), this->FluenceSum.end(), 0.0F);
-  std::fill(this->IlluminanceSum.begin(), this->IlluminanceSum.end(), 0.0F);
-  this->EscapedSum = 0.0;
-  this->Counted = 0;
-}
-
 struct LineSweep::Buffers
 {
   std::vector<Crossing> Crossings;
@@ -69,7 +55,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(SweepLines(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
+      Lines_(ChooseLines(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
 {
   this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
   const Medium& smoke = scene.Smoke();
@@ -459,53 +445,6 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
   state.Share = this->ShareOf(thin);
   state.EscapedSum += tallies.Escaped;
   ++state.Counted;
-}
-
-double LineSweep::FirstSource() const
-{
-  double power = 0.0;
-  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
-  {
-    const double emission =
-      this->Emission_.empty() ? 0.0 : 4.0 * glm::pi<double>() * this->Emission_[cell];
-    power += this->Extinction_[cell] / this->InverseVolume_[cell] *
-             (this->Scene_.Albedo() * this->DirectFluence_[cell] + emission);
-  }
-  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
-  {
-    power += this->Scene_.PatchReflectance(side / 2)[this->Band_] *
-             this->Scene_.ExposedArea(side / 2, side % 2) * this->DirectIlluminance_[side];
-  }
-  const EmitterSet& lights = this->Scene_.Lights();
-  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
-  {
-    power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
-  }
-  // The sky's light comes in through the box around the scene.
-  power += glm::pi<double>() * this->Scene_.Sky() * this->Lines_.Outer().Surface();
-  return power;
-}
-
-LineSweep::Powers LineSweep::PowersOf(const BatchState& state) const
-{
-  double met = 0.0;
-  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
-  {
-    met += this->Extinction_[cell] / this->InverseVolume_[cell] * state.FluenceSum[cell];
-  }
-  Powers powers{
-    this->Scene_.Albedo() * met, state.EscapedSum + (1.0 - this->Scene_.Albedo()) * met};
-  for (std::size_t side = 0; side < 2 * this->Scene_.Patches(); ++side)
-  {
-    const double reflectance = this->Scene_.PatchReflectance(side / 2)[this->Band_];
-    const double arrives =
-      this->Scene_.ExposedArea(side / 2, side % 2) * state.IlluminanceSum[side];
-    powers.SentAgain += reflectance * arrives;
-    powers.Lost += (1.0 - reflectance) * arrives;
-  }
-  powers.SentAgain /= state.Counted;
-  powers.Lost /= state.Counted;
-  return powers;
 }
 
 } // namespace smokevis

@@ -1,6 +1,7 @@
 // One sweep of random global lines: light carried along straight lines through the whole scene.
 #pragma once
 
+#include "BatchState.h"
 #include "GlobalLines.h"
 #include "LightField.h"
 #include "PatchGroups.h"
@@ -16,35 +17,6 @@ namespace smokevis
 {
 
 class DirectField;
-
-/// Sums over sweeps of the light that watched surfaces send on after they got it from others.
-struct WatchedLight
-{
-  /// Its power where it comes to them, before a sweep; what they take up of it or does not come
-  /// back to any of them in the sweep; and all other light that comes to them [lm].
-  double Held = 0.0, Lost = 0.0, Gained = 0.0;
-  int Sweeps = 0;
-};
-
-/// What one batch knows of the light field of one band; indices as in LightField, without the band.
-struct BatchState
-{
-  /// Latest estimate of what is not direct, and the share of a sweep's lines that it is made of.
-  std::vector<float> Fluence, Illuminance;
-  float Share = 1.0F;
-  /// Sum of the estimates that count, one a sweep.
-  std::vector<float> FluenceSum, IlluminanceSum;
-  /// Sum of what left the scene [lm], and how many sweeps the sums count.
-  double EscapedSum = 0.0;
-  int Counted = 0;
-  /// Sweeps that the latest estimate comes from.
-  int Sweeps = 0;
-  WatchedLight Watched;
-
-  BatchState(std::size_t cells, std::size_t sides);
-  /// Forgets the sums, not the latest estimate.
-  void Restart();
-};
 
 /// What a sweep adds up, by how much light differs from what was expected, times the weights of
 /// the lines; one a thread.
@@ -88,6 +60,8 @@ public:
 
   /// Lines that cross each cell about 1.5 times, or less often where little is asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
+  /// The box that they enter and leave the scene through.
+  const Box& Outer() const { return this->Lines_.Outer(); }
   /// Lets the sources vary inside the cells as the means of the batches' sums do.
   void Follow(const std::vector<BatchState>& batches) { this->Shape_.Follow(batches); }
 
@@ -111,17 +85,6 @@ public:
   /// @param tallies scratch
   void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
     const Progress& progress) const;
-
-  /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
-  /// again of direct light, and what flames, large lights and the sky emit.
-  double FirstSource() const;
-  /// What becomes of the light of a state, means over the sweeps that count [lm].
-  struct Powers
-  {
-    /// What surfaces and smoke send out again, and what they absorb or leaves the scene.
-    double SentAgain = 0.0, Lost = 0.0;
-  };
-  Powers PowersOf(const BatchState& state) const;
 
 private:
   struct Buffers;

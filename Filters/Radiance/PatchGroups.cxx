@@ -16,7 +16,7 @@ namespace
 {
 
 /// Sides that fewer lines meet in a sweep are put together until about so many do. Each patch alone
-/// is what a sweep's lines are counted for (SweepLines), as far as there are not too many.
+/// is what a sweep's lines are counted for (ChooseLines), as far as there are not too many.
 constexpr float FewestHits = 0.7F;
 constexpr double GroupHits = 4.0;
 /// Share of the scene's size that corners of neighbours may lie apart.

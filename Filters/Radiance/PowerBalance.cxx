@@ -1,11 +1,13 @@
 #include "PowerBalance.h"
 
 #include "Errors.h"
+#include "LightField.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
 
 namespace smokevis
@@ -29,45 +31,88 @@ void Multiply(std::vector<float>& values, double scale)
   }
 }
 
-bool HardlyLoses(const Scene& scene, int band)
-{
-  if (1.0 - scene.Albedo() > SmallestLoss && scene.Smoke().MaximumExtinction() > 0.0F)
-  {
-    return false;
-  }
-  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
-  {
-    const double exposed = scene.ExposedArea(patch, 0) + scene.ExposedArea(patch, 1);
-    if (1.0 - scene.PatchReflectance(patch)[band] > SmallestLoss && exposed > 0.0)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 } // namespace
 
 PowerBalance::PowerBalance(
-  const Scene& scene, const LineSweep& sweep, int band, tbb::task_arena& arena)
-    : Sweep_(sweep), Arena_(arena), Source_(sweep.FirstSource()), Sky_(scene.Sky() > 0.0),
-      HardlyLoses_(HardlyLoses(scene, band))
+  const Scene& scene, const LightField& field, int band, const Box& outer, tbb::task_arena& arena)
+    : Scene_(scene), Arena_(arena), Capture_(field.Cells), Area_(2 * field.Patches),
+      Reflectance_(2 * field.Patches), Sky_(scene.Sky() > 0.0)
 {
+  const Medium& smoke = scene.Smoke();
+  for (std::size_t cell = 0; cell < field.Cells; ++cell)
+  {
+    this->Capture_[cell] = static_cast<float>(
+      smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.CellVolume(cell));
+  }
+  this->HardlyLoses_ =
+    1.0 - scene.Albedo() <= SmallestLoss || !(scene.Smoke().MaximumExtinction() > 0.0F);
+  for (std::size_t side = 0; side < this->Area_.size(); ++side)
+  {
+    const double reflectance = scene.PatchReflectance(side / 2)[band];
+    const double area = scene.ExposedArea(side / 2, side % 2);
+    this->Area_[side] = static_cast<float>(area);
+    this->Reflectance_[side] = reflectance;
+    this->HardlyLoses_ = this->HardlyLoses_ && (1.0 - reflectance <= SmallestLoss || !(area > 0.0));
+  }
+  this->Source_ = this->FirstSource(field, band, outer);
 }
 
-std::vector<LineSweep::Powers> PowerBalance::PowersOf(const std::vector<BatchState>& batches) const
+double PowerBalance::FirstSource(const LightField& field, int band, const Box& outer) const
 {
-  std::vector<LineSweep::Powers> powers(batches.size());
+  const double albedo = this->Scene_.Albedo();
+  const double emits = 4.0 * glm::pi<double>() * (1.0 - albedo);
+  double power = 0.0;
+  for (std::size_t cell = 0; cell < this->Capture_.size(); ++cell)
+  {
+    power += this->Capture_[cell] * (albedo * field.DirectFluence[field.CellIndex(band, cell)] +
+                                      emits * this->Scene_.Smoke().EmittedLuminance(cell));
+  }
+  for (std::size_t side = 0; side < this->Area_.size(); ++side)
+  {
+    power += this->Reflectance_[side] * this->Area_[side] *
+             field.DirectIlluminance[field.PatchIndex(band, side / 2, side % 2)];
+  }
+  const EmitterSet& lights = this->Scene_.Lights();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    power += lights.LeftToLines(cell) ? lights.CellFlux(cell, band) : 0.0;
+  }
+  return power + glm::pi<double>() * this->Scene_.Sky() * outer.Surface();
+}
+
+template <class Body> void PowerBalance::ForEach(std::size_t batches, Body&& body) const
+{
   this->Arena_.execute(
-    [&]
+    [&] { tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) { body(i); }); });
+}
+
+std::vector<PowerBalance::Powers> PowerBalance::Of(const std::vector<BatchState>& batches) const
+{
+  std::vector<Powers> powers(batches.size());
+  this->ForEach(batches.size(),
+    [&](std::size_t i)
     {
-      tbb::parallel_for(std::size_t{0}, batches.size(),
-        [&](std::size_t i) { powers[i] = this->Sweep_.PowersOf(batches[i]); });
+      const BatchState& batch = batches[i];
+      double met = 0.0;
+      for (std::size_t cell = 0; cell < this->Capture_.size(); ++cell)
+      {
+        met += this->Capture_[cell] * batch.FluenceSum[cell];
+      }
+      double sent = this->Scene_.Albedo() * met;
+      double taken = (1.0 - this->Scene_.Albedo()) * met;
+      for (std::size_t side = 0; side < this->Area_.size(); ++side)
+      {
+        const double arrives = this->Area_[side] * batch.IlluminanceSum[side];
+        sent += this->Reflectance_[side] * arrives;
+        taken += (1.0 - this->Reflectance_[side]) * arrives;
+      }
+      powers[i] = {sent / batch.Counted, (batch.EscapedSum + taken) / batch.Counted,
+        batch.EscapedSum / batch.Counted};
     });
   return powers;
 }
 
-PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<BatchState>& batches) const
+PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) const
 {
   Scales scales;
   double loss = 0.0;
@@ -76,19 +121,19 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<BatchState>& batch
   double squares = 0.0;
   double scaledSum = 0.0;
   double scaledSquares = 0.0;
-  for (const auto& [later, own] : this->PowersOf(batches))
+  for (const Powers& own : powers)
   {
-    scales.Own.push_back(this->ScaleFor(own));
-    loss += own;
-    sent += this->Source_ + later;
-    const double scaled = later * scales.Own.back();
-    sum += later;
-    squares += later * later;
+    scales.Own.push_back(this->ScaleFor(own.Lost));
+    loss += own.Lost;
+    sent += this->Source_ + own.SentAgain;
+    const double scaled = own.SentAgain * scales.Own.back();
+    sum += own.SentAgain;
+    squares += own.SentAgain * own.SentAgain;
     scaledSum += scaled;
     scaledSquares += scaled * scaled;
   }
   scales.Agree = scaledSquares * sum * sum < squares * scaledSum * scaledSum;
-  scales.Common = this->ScaleFor(loss / static_cast<double>(batches.size()));
+  scales.Common = this->ScaleFor(loss / static_cast<double>(powers.size()));
   if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses_)
   {
     throw Error("light field",
@@ -103,63 +148,53 @@ double PowerBalance::ScaleFor(double loss) const
   return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : LargestScale;
 }
 
-double PowerBalance::SentAgain(const std::vector<BatchState>& batches) const
+double PowerBalance::SentAgain(const std::vector<Powers>& powers) const
 {
   double later = 0.0;
   double loss = 0.0;
-  for (const auto& [own, lost] : this->PowersOf(batches))
+  for (const Powers& own : powers)
   {
-    later += own;
-    loss += lost;
-  }
-  for (const BatchState& batch : batches)
-  {
+    later += own.SentAgain;
     // Much of the sky's light meets nothing on its way through.
-    loss -= this->Sky_ ? batch.EscapedSum / batch.Counted : 0.0;
+    loss += own.Lost - (this->Sky_ ? own.Escaped : 0.0);
   }
   return later > 0.0 && loss > 0.0 ? later / (loss + later) : later > 0.0 ? 1.0 : 0.0;
 }
 
-void PowerBalance::ScaleLatest(std::vector<BatchState>& batches) const
+void PowerBalance::ScaleLatest(
+  const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
   if (this->Sky_)
   {
     return;
   }
-  const Scales scales = this->ScalesOf(batches);
-  this->Arena_.execute(
-    [&]
+  const Scales scales = this->ScalesOf(powers);
+  this->ForEach(batches.size(),
+    [&](std::size_t i)
     {
-      tbb::parallel_for(std::size_t{0}, batches.size(),
-        [&](std::size_t i)
-        {
-          const double scale = scales.Agree ? scales.Own[i] : scales.Common;
-          Multiply(batches[i].Fluence, scale);
-          Multiply(batches[i].Illuminance, scale);
-        });
+      const double scale = scales.Agree ? scales.Own[i] : scales.Common;
+      Multiply(batches[i].Fluence, scale);
+      Multiply(batches[i].Illuminance, scale);
     });
 }
 
-void PowerBalance::ScaleSums(std::vector<BatchState>& batches) const
+void PowerBalance::ScaleSums(
+  const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
   if (this->Sky_)
   {
     return;
   }
-  const Scales scales = this->ScalesOf(batches);
+  const Scales scales = this->ScalesOf(powers);
   if (!scales.Agree)
   {
     return;
   }
-  this->Arena_.execute(
-    [&]
+  this->ForEach(batches.size(),
+    [&](std::size_t i)
     {
-      tbb::parallel_for(std::size_t{0}, batches.size(),
-        [&](std::size_t i)
-        {
-          Multiply(batches[i].FluenceSum, scales.Own[i]);
-          Multiply(batches[i].IlluminanceSum, scales.Own[i]);
-        });
+      Multiply(batches[i].FluenceSum, scales.Own[i]);
+      Multiply(batches[i].IlluminanceSum, scales.Own[i]);
     });
 }
 

@@ -1,7 +1,8 @@
 // Holds a light field to the conservation of power: what is lost must be what is emitted.
 #pragma once
 
-#include "LineSweep.h"
+#include "BatchState.h"
+#include "Box.h"
 
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace smokevis
 {
 
 class Scene;
+struct LightField;
 
 /// Scales light to be in balance as a whole, which sums the series of reflections of its slowest
 /// mode at once. Each batch for itself where that makes them agree better; where light leaves the
@@ -19,17 +21,32 @@ class Scene;
 class PowerBalance
 {
 public:
+  /// @param field holds the direct light of all cells and patches
+  /// @param outer box through whose surface the sky's light comes in
   /// @param arena whose threads work on the batches; must outlive this
-  PowerBalance(const Scene& scene, const LineSweep& sweep, int band, tbb::task_arena& arena);
+  PowerBalance(const Scene& scene, const LightField& field, int band, const Box& outer,
+    tbb::task_arena& arena);
+
+  /// Power that lines carry before any of it was tallied [lm]: what surfaces and smoke send out
+  /// again of direct light, and what flames, large lights and the sky emit.
+  double Source() const { return this->Source_; }
+
+  /// What becomes of the light of a batch, means over the sweeps that count [lm].
+  struct Powers
+  {
+    /// What surfaces and smoke send out again; what they absorb or leaves the scene; the latter.
+    double SentAgain = 0.0, Lost = 0.0, Escaped = 0.0;
+  };
+  std::vector<Powers> Of(const std::vector<BatchState>& batches) const;
 
   /// Share of the light that smoke and surfaces take up or let go which they send on again: its
   /// power to n is about the share that is sent on more than n times.
-  double SentAgain(const std::vector<BatchState>& batches) const;
+  double SentAgain(const std::vector<Powers>& powers) const;
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
   /// they do not agree better each for itself. Throws an error where hardly any light is ever lost.
-  void ScaleLatest(std::vector<BatchState>& batches) const;
+  void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums where the batches then agree better.
-  void ScaleSums(std::vector<BatchState>& batches) const;
+  void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
 
 private:
   struct Scales
@@ -41,13 +58,18 @@ private:
     bool Agree = false;
   };
 
-  std::vector<LineSweep::Powers> PowersOf(const std::vector<BatchState>& batches) const;
-  Scales ScalesOf(const std::vector<BatchState>& batches) const;
+  double FirstSource(const LightField& field, int band, const Box& outer) const;
+  Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
+  /// Runs body(i) for each batch.
+  template <class Body> void ForEach(std::size_t batches, Body&& body) const;
 
-  const LineSweep& Sweep_;
+  const Scene& Scene_;
   tbb::task_arena& Arena_;
-  /// What lines carry before any of it was tallied [lm].
+  /// Extinction coefficient times volume of each cell [m2], and of each side of a patch the area
+  /// that light comes to [m2] and the reflectance, which may be close to 1.
+  std::vector<float> Capture_, Area_;
+  std::vector<double> Reflectance_;
   double Source_;
   bool Sky_;
   /// Whether neither smoke nor surfaces take light away; it may still leave the scene.

@@ -1,10 +1,15 @@
 #include "Settling.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "BatchSweeps.h"
+#include "Errors.h"
+#include "PowerBalance.h"
+#include "SlowLight.h"
+#include "VeilProbes.h"
 
-#include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 namespace smokevis
 {
@@ -12,199 +17,153 @@ namespace smokevis
 namespace
 {
 
-/// Few blocks are known well; more would only show how noise differs from place to place. Cells
-/// count by where they lie, so that it does not matter how meshes part the smoke; it lies in
-/// layers.
-constexpr std::array<int, 3> CellBlocks = {2, 2, 4};
-constexpr std::size_t MostPatchBlocks = 16;
-/// Share of the mean light of all blocks that a dark block is given, so that it need not be known
-/// to a share of next to nothing.
-constexpr double DarkShare = 0.1;
-
-/// Standard errors that a drift must be above 0 to be taken for one: window after window is asked,
-/// so that one would be too few.
-constexpr double LowerDeviations = 2.5;
-
-double MeanOf(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-  {
-    sum += value;
-  }
-  return sum / static_cast<double>(values.size());
-}
-
-/// Variance of the mean.
-double VarianceOf(const std::vector<double>& values, double mean)
-{
-  double squares = 0.0;
-  for (const double value : values)
-  {
-    squares += (value - mean) * (value - mean);
-  }
-  const auto count = static_cast<double>(values.size());
-  return squares / (count * (count - 1.0));
-}
+/// Thin sweeps with which the orders of scattering build up, at most, and the share of the
+/// tolerance that the light may be of which they know nothing yet.
+constexpr int MostThinSweeps = 16;
+constexpr double UncountedShare = 0.5;
+/// Share of the tolerance that the drift from window to window may be.
+constexpr double DriftShare = 0.7;
+/// Share of that which noise may hide where next to no light is sent on any more that could drift:
+/// the mean over two windows has half the noise of their difference.
+constexpr double HiddenShare = 2.0;
+/// A window shows of what has yet to settle the share that its sweeps do not send on any more.
+/// Where that is less than this, a drift counts for more than is seen of it.
+constexpr double ShownShare = 0.3;
+/// Of how little of a drift is seen at least: what thick cells send to themselves is sent on, too,
+/// but waits for no sweeps.
+constexpr double LeastShown = 0.2;
+/// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
+/// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
+/// been, and over 200 seeds the bars hold with this.
+constexpr double DriftErrors = 2.0;
+/// Standard errors of the veil that the light may be that has yet to build up, by how much is sent
+/// on. All values lack it, also those that are known best.
+constexpr double LackingErrors = 0.25;
+/// Share of the tolerance below which that error need not be: probes may see next to nothing but
+/// direct light.
+constexpr double LeastErrorShare = 0.05;
+/// Sweeps of a window after which light that still grows is not left to itself.
+constexpr int SlowWindow = 8;
 
 } // namespace
 
-BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scene,
-  const LightField& field, int band, tbb::task_arena& arena)
-    : Counted_(batches.front().Counted)
+Settling::Settling(const Scene& scene, const LightField& field, int band, double tolerance,
+  const PowerBalance& balance, const VeilProbes& probes, tbb::task_arena& arena,
+  BatchSweeps& sweeps)
+    : Scene_(scene), Field_(field), Band_(band), Tolerance_(tolerance),
+      Limit_(DriftShare * tolerance), Balance_(balance), Probes_(probes), Arena_(arena),
+      Sweeps_(sweeps)
 {
-  // Light counts by the power that is sent on of it [lm]; that on black surfaces counts a little,
-  // and so does that in the air where nothing scatters at all.
-  const Medium& smoke = scene.Smoke();
-  const double least = scene.Albedo() * smoke.MaximumExtinction() > 0.0
-                         ? 0.0
-                         : DarkShare / glm::length(scene.Upper() - scene.Lower());
-  std::vector<Share> shares(field.Cells);
-  const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
-  const auto share = [&](std::size_t i)
+}
+
+void Settling::BuildUp()
+{
+  for (double left = 1.0;
+       this->Sweeps_.Done() < MostThinSweeps && left > UncountedShare * this->Limit_;)
   {
-    const auto cell = static_cast<std::int64_t>(i);
-    const Vec3 place = (smoke.CellCentre(cell) - smoke.Lower()) / extent;
-    std::size_t block = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const int count = CellBlocks[axis];
-      block = block * count + std::clamp(static_cast<int>(count * place[axis]), 0, count - 1);
-    }
-    shares[i] = {
-      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.CellVolume(cell)};
-  };
-  arena.execute(
-    [&]
-    {
-      tbb::parallel_for(std::size_t{0}, shares.size(), share);
-      this->Add(batches, &BatchState::FluenceSum,
-        field.DirectFluence.data() + field.CellIndex(band, 0), shares);
-    });
-  shares.resize(2 * field.Patches);
-  const std::size_t patchBlocks = std::min(MostPatchBlocks, shares.size());
-  for (std::size_t side = 0; side < shares.size(); ++side)
-  {
-    shares[side] = {side * patchBlocks / shares.size(),
-      scene.ExposedArea(side / 2, side % 2) *
-        std::max(DarkShare, scene.PatchReflectance(side / 2)[band])};
+    // The first sweeps differ much: each is balanced by its own loss.
+    this->Sweeps_.Restart();
+    this->Sweeps_.Draw(1, true);
+    const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(this->Sweeps_.States());
+    left = std::pow(this->Balance_.SentAgain(powers), this->Sweeps_.Done());
+    this->Balance_.ScaleLatest(powers, this->Sweeps_.States());
+    this->Sweeps_.Follow();
   }
-  arena.execute(
-    [&]
-    {
-      this->Add(batches, &BatchState::IlluminanceSum,
-        field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), shares);
-    });
-  double all = 0.0;
-  for (const Block& block : this->Blocks_)
+  this->Sweeps_.Restart();
+}
+
+Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& window) const
+{
+  Verdict verdict;
+  const double shown =
+    std::clamp((1.0 - std::pow(window.Sent, window.Sweeps)) / ShownShare, LeastShown, 1.0);
+  verdict.Drifts = drift.LowerBound > 0.0;
+  verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
+  verdict.Tolerable = drift.UpperBound < this->Limit_ * (window.Over ? 1.0 : shown) ||
+                      (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ &&
+                        drift.UpperBound < HiddenShare * this->Limit_);
+  const double error = std::max(
+    this->Probes_.RelativeError(this->Sweeps_.States()), LeastErrorShare * this->Tolerance_);
+  // Sweeps without end would be needed to tell that noise is no drift: there the share does that
+  // the sums lack of what is sent on.
+  const double lacking = std::pow(window.Sent, window.Before) /
+                         std::max(1.0, (1.0 - window.Sent) * this->Sweeps_.Counted());
+  verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
+                                           (drift.IsNoise() && lacking <= LackingErrors * error));
+  return verdict;
+}
+
+void Settling::ExpectSmall(const BlockMeans::Drift& drift) const
+{
+  if (drift.LowerBound >= this->Limit_)
   {
-    all += block.Direct + MeanOf(block.Multiple);
-  }
-  for (Block& block : this->Blocks_)
-  {
-    // What holds no light at all is known perfectly, which tells nothing of the rest.
-    block.Lit = block.Direct > 0.0 || std::any_of(block.Multiple.begin(), block.Multiple.end(),
-                                        [](double value) { return value != 0.0; });
-    block.Direct += DarkShare * all / static_cast<double>(this->Blocks_.size());
+    throw Error("light field",
+      "the light did not settle in " + std::to_string(this->Sweeps_.Done()) + " sweeps",
+      "Give a larger tolerance, or check for an albedo and reflectances so close to 1 that "
+      "light is hardly ever lost");
   }
 }
 
-void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
-  const float* direct, const std::vector<Share>& shares)
+void Settling::Run()
 {
-  std::size_t count = 0;
-  for (const Share& share : shares)
+  this->BuildUp();
+  SlowLight slow(this->Scene_, this->Sweeps_.Sweep(), this->Band_);
+  std::optional<BlockMeans> earlier;
+  bool summed = false;
+  for (Window window{1, this->Sweeps_.Done()};;)
   {
-    count = std::max(count, share.Block + 1);
-  }
-  const std::size_t first = this->Blocks_.size();
-  this->Blocks_.resize(first + count, Block{0.0, std::vector<double>(batches.size(), 0.0), false});
-  const auto sums = [&](const float* light)
-  {
-    std::vector<double> sum(count, 0.0);
-    for (std::size_t i = 0; i < shares.size(); ++i)
+    std::vector<BatchState>& states = this->Sweeps_.States();
+    this->Sweeps_.Draw(window.Sweeps);
+    this->Sweeps_.Follow();
+    BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
+    const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
+    window.Sent = this->Balance_.SentAgain(powers);
+    window.Over = std::pow(window.Sent, window.Before) < UncountedShare * this->Limit_;
+    Verdict verdict;
+    if (earlier)
     {
-      sum[shares[i].Block] += shares[i].Weight * light[i];
-    }
-    return sum;
-  };
-  // Each by one thread: the sums do not depend on the threads.
-  tbb::parallel_for(std::size_t{0}, batches.size() + 1,
-    [&](std::size_t batch)
-    {
-      const bool all = batch == batches.size();
-      const std::vector<double> sum = sums(all ? direct : (batches[batch].*values).data());
-      for (std::size_t block = 0; block < count; ++block)
+      const BlockMeans::Drift drift =
+        (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Tolerance_);
+      verdict = this->Judge(drift, window);
+      const bool most = this->Sweeps_.Done() + 2 * window.Sweeps > MostSweeps;
+      if (most && !verdict.Settled)
       {
-        Block& own = this->Blocks_[first + block];
-        (all ? own.Direct : own.Multiple[batch]) =
-          all ? sum[block] : sum[block] / std::max(1, batches[batch].Counted);
+        // Noise may hide a small drift to the end, or feign one.
+        this->ExpectSmall(drift);
       }
-    });
-}
-
-BlockMeans BlockMeans::Since(const BlockMeans& earlier) const
-{
-  BlockMeans since = *this;
-  since.Counted_ = this->Counted_ - earlier.Counted_;
-  for (std::size_t index = 0; index < since.Blocks_.size(); ++index)
-  {
-    for (std::size_t batch = 0; batch < since.Blocks_[index].Multiple.size(); ++batch)
-    {
-      since.Blocks_[index].Multiple[batch] =
-        (this->Counted_ * this->Blocks_[index].Multiple[batch] -
-          earlier.Counted_ * earlier.Blocks_[index].Multiple[batch]) /
-        since.Counted_;
+      if (most || verdict.Settled)
+      {
+        this->Sweeps_.Sweep().Watch({});
+        return;
+      }
     }
-  }
-  return since;
-}
-
-BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resolution) const
-{
-  // The square of the mean drift, without its noise, is the mean over pairs of batches of the
-  // product of their drifts. That over all pairs, and over those without each of the batches:
-  double weights = 0.0;
-  double square = 0.0;
-  std::vector<double> without(Batches, 0.0);
-  std::vector<double> drifts(Batches);
-  for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
-  {
-    const Block& block = this->Blocks_[index];
-    const double all = std::max(0.0, MeanOf(block.Multiple)) + block.Direct;
-    if (!block.Lit || !(all > 0.0))
+    summed = window.Over && !(earlier && verdict.Drifts);
+    earlier = std::move(now);
+    if (summed)
     {
+      // What noise hides is told from more sweeps, all of which count.
+      window.Sweeps = this->Sweeps_.Done() - window.Before;
       continue;
     }
-    double sum = 0.0;
-    double squares = 0.0;
-    for (std::size_t batch = 0; batch < drifts.size(); ++batch)
+    if (slow.Balance(states))
     {
-      drifts[batch] = (block.Multiple[batch] - earlier.Blocks_[index].Multiple[batch]) / all;
-      sum += drifts[batch];
-      squares += drifts[batch] * drifts[batch];
+      // What was seen before does not compare with that.
+      earlier.reset();
+      slow.Watch(states, false);
     }
-    // Blocks count by how well they are known, those known better than asked for all alike.
-    const double weight =
-      1.0 / std::max(VarianceOf(drifts, sum / Batches), resolution * resolution);
-    weights += weight;
-    square += weight * (sum * sum - squares) / (Batches * (Batches - 1.0));
-    for (std::size_t batch = 0; batch < drifts.size(); ++batch)
+    else
     {
-      const double rest = sum - drifts[batch];
-      const double restSquares = squares - drifts[batch] * drifts[batch];
-      without[batch] += weight * (rest * rest - restSquares) / ((Batches - 1.0) * (Batches - 2.0));
+      this->Balance_.ScaleLatest(powers, states);
+      if (2 * window.Sweeps >= SlowWindow &&
+          (verdict.Grows || this->Sweeps_.Sweep().Watched().empty()))
+      {
+        slow.Watch(states, verdict.Grows);
+      }
+      window.Sweeps = verdict.Tolerable ? window.Sweeps : 2 * window.Sweeps;
     }
+    this->Sweeps_.Restart();
+    window.Before = this->Sweeps_.Done();
   }
-  if (weights == 0.0)
-  {
-    return {};
-  }
-  // Blocks drift together: how far noise moves the estimate is told by a jackknife over batches.
-  const double deviation = (Batches - 1.0) * std::sqrt(VarianceOf(without, MeanOf(without)));
-  const auto root = [weights](double value) { return std::sqrt(std::max(0.0, value) / weights); };
-  return {root(square - LowerDeviations * deviation), root(square),
-    root(std::max(0.0, square) + deviation)};
 }
 
 } // namespace smokevis

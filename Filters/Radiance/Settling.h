@@ -1,73 +1,74 @@
-// Whether a light field that is built up sweep by sweep still drifts.
+// Draws sweeps until the orders of scattering have built up.
 #pragma once
 
-#include "LineSweep.h"
+#include "BlockMeans.h"
 
-#include <vector>
+#include <optional>
 
 #include <tbb/task_arena.h>
 
 namespace smokevis
 {
 
-/// Power that blocks of cells and of patches send on [lm], a value a batch. Comparing those of
-/// two windows of sweeps tells drift from noise, since the noise shows in the spread of the
-/// batches.
-class BlockMeans
+class BatchSweeps;
+class PowerBalance;
+class Scene;
+class VeilProbes;
+struct LightField;
+
+/// Light that is sent on again and again takes sweeps to build up. First come thin sweeps, until
+/// next to nothing is sent on so often; then windows of whole ones, twice as many each time, until
+/// no drift from one to the next stands out any more that the tolerance would not allow. Windows
+/// that are all settled are merged.
+class Settling
 {
 public:
-  BlockMeans() = default;
-  /// From the running means of the batches; the direct light of the band is what it adds to.
-  /// @param arena whose threads work on the batches
-  BlockMeans(const std::vector<BatchState>& batches, const Scene& scene, const LightField& field,
-    int band, tbb::task_arena& arena);
+  /// @param tolerance that is asked for
+  /// @param arena whose threads work; all must outlive this
+  Settling(const Scene& scene, const LightField& field, int band, double tolerance,
+    const PowerBalance& balance, const VeilProbes& probes, tbb::task_arena& arena,
+    BatchSweeps& sweeps);
 
-  /// Those of the sweeps since earlier means of the same sums were taken.
-  BlockMeans Since(const BlockMeans& earlier) const;
+  /// Leaves sums in the batches that all count. Throws Error where light never settles.
+  void Run();
 
-  /// Root mean square, over the blocks, of a drift over all light of the block (or over a floor
-  /// where a block lies in the dark).
-  struct Drift
-  {
-    /// Noise taken out; below the lower bound noise would hardly have taken it, and the upper one
-    /// is a standard error above it.
-    double LowerBound = 0.0;
-    double Estimate = 0.0;
-    double UpperBound = 0.0;
-
-    /// Whether its square is less than a standard error of that.
-    bool IsNoise() const
-    {
-      return 2.0 * this->Estimate * this->Estimate < this->UpperBound * this->UpperBound;
-    }
-  };
-  /// Drift from an earlier window to this one.
-  /// @param resolution relative error that need not be resolved
-  Drift DriftSince(const BlockMeans& earlier, double resolution) const;
+  /// Sweeps that may be drawn in all, for whatever reason.
+  static constexpr int MostSweeps = 768;
 
 private:
-  struct Block
+  /// What is known of the sweeps that the sums hold.
+  struct Window
   {
-    /// Of direct light, and a floor.
-    double Direct = 0.0;
-    /// A value a batch.
-    std::vector<double> Multiple;
-    bool Lit = false;
+    /// Sweeps since the last window, and those before the sums.
+    int Sweeps = 1, Before = 0;
+    /// Share of the light that is sent on again.
+    double Sent = 0.0;
+    /// Whether the sweeps before have left so little light that a drift would be over.
+    bool Over = false;
+  };
+  /// What a drift says of them.
+  struct Verdict
+  {
+    /// Whether it stands out of the noise, for so long that light may grow by itself, is small
+    /// enough, and hides in an error that is known.
+    bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
   };
 
-  /// Which block a value belongs to, and what it counts there.
-  struct Share
-  {
-    std::size_t Block = 0;
-    double Weight = 0.0;
-  };
-  void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
-    const float* direct, const std::vector<Share>& shares);
+  void BuildUp();
+  Verdict Judge(const BlockMeans::Drift& drift, const Window& window) const;
+  /// Throws Error where a drift stands out of noise even now.
+  void ExpectSmall(const BlockMeans::Drift& drift) const;
 
-  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
-  std::vector<Block> Blocks_;
-  /// Sweeps that they are means of.
-  int Counted_ = 0;
+  const Scene& Scene_;
+  const LightField& Field_;
+  int Band_;
+  double Tolerance_;
+  /// Drift that is allowed.
+  double Limit_;
+  const PowerBalance& Balance_;
+  const VeilProbes& Probes_;
+  tbb::task_arena& Arena_;
+  BatchSweeps& Sweeps_;
 };
 
 } // namespace smokevis

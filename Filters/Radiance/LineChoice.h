@@ -12,7 +12,7 @@ class Scene;
 
 /// Lines through the scene that cross each smoke cell about 1.5 times and meet each patch that
 /// sends light on or out as often, in the mean.
-GlobalLines SweepLines(const Scene& scene, int band);
+GlobalLines ChooseLines(const Scene& scene, int band);
 
 /// Which patches lie in a box.
 std::vector<bool> PatchesIn(const Scene& scene, const Box& box);

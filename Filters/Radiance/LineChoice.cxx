@@ -1,4 +1,4 @@
-#include "SweepLines.h"
+#include "LineChoice.h"
 
 #include "Scene.h"
 
@@ -73,7 +73,7 @@ std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
   return inside;
 }
 
-GlobalLines SweepLines(const Scene& scene, int band)
+GlobalLines ChooseLines(const Scene& scene, int band)
 {
   const Medium& smoke = scene.Smoke();
   double boundary = 0.0;

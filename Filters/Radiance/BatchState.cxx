@@ -1,0 +1,22 @@
+#include "BatchState.h"
+
+#include <algorithm>
+
+namespace smokevis
+{
+
+BatchState::BatchState(std::size_t cells, std::size_t sides)
+    : Fluence(cells, 0.0F), Illuminance(sides, 0.0F), FluenceSum(cells, 0.0F),
+      IlluminanceSum(sides, 0.0F)
+{
+}
+
+void BatchState::Restart()
+{
+  std::fill(this->FluenceSum.begin(), this->FluenceSum.end(), 0.0F);
+  std::fill(this->IlluminanceSum.begin(), this->IlluminanceSum.end(), 0.0F);
+  this->EscapedSum = 0.0;
+  this->Counted = 0;
+}
+
+} // namespace smokevis

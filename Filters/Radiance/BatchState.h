@@ -1,0 +1,39 @@
+// What one batch of random lines knows of the light field.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace smokevis
+{
+
+/// Sums over sweeps of the light that watched surfaces send on after they got it from others.
+struct WatchedLight
+{
+  /// Its power where it comes to them, before a sweep; what they take up of it or does not come
+  /// back to any of them in the sweep; and all other light that comes to them [lm].
+  double Held = 0.0, Lost = 0.0, Gained = 0.0;
+  int Sweeps = 0;
+};
+
+/// What one batch knows of the light field of one band; indices as in LightField, without the band.
+struct BatchState
+{
+  /// Latest estimate of what is not direct, and the share of a sweep's lines that it is made of.
+  std::vector<float> Fluence, Illuminance;
+  float Share = 1.0F;
+  /// Sum of the estimates that count, one a sweep.
+  std::vector<float> FluenceSum, IlluminanceSum;
+  /// Sum of what left the scene [lm], and how many sweeps the sums count.
+  double EscapedSum = 0.0;
+  int Counted = 0;
+  /// Sweeps that the latest estimate comes from.
+  int Sweeps = 0;
+  WatchedLight Watched;
+
+  BatchState(std::size_t cells, std::size_t sides);
+  /// Forgets the sums, not the latest estimate.
+  void Restart();
+};
+
+} // namespace smokevis

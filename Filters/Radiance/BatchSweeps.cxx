@@ -1,0 +1,89 @@
+#include "BatchSweeps.h"
+
+#include "Errors.h"
+#include "LightField.h"
+#include "Sampler.h"
+#include "Team.h"
+
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Share of what is left of the progress bar that a sweep takes.
+constexpr double ProgressRate = 0.02;
+
+} // namespace
+
+BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_t key, Team& team,
+  tbb::task_arena& arena, Progress& progress, const ProgressSpan& span)
+    : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span),
+      States_(Batches, BatchState(field.Cells, 2 * field.Patches))
+{
+}
+
+void BatchSweeps::Draw(int sweeps, bool thin)
+{
+  for (const int end = this->Done_ + sweeps; this->Done_ < end;)
+  {
+    // A batch is worked on by one thread, line after line: the sums do not depend on the threads.
+    this->Arena_.execute(
+      [&]
+      {
+        tbb::parallel_for(std::size_t{0}, this->Team_.OwnCount(this->States_.size()),
+          [&](std::size_t i)
+          {
+            const std::size_t batch = this->Team_.OwnItem(i);
+            this->Sweep_.Run(this->States_[batch], this->Tallies_.local(),
+              Mix(this->Key_ + this->Done_) + batch, thin, this->Progress_);
+          });
+      });
+    if (this->Progress_.ShouldStop())
+    {
+      throw Error("light field", "the work was stopped");
+    }
+    this->LinesABatch_ += thin ? this->Sweep_.ThinLines() : this->Sweep_.Lines();
+    ++this->Done_;
+    this->Progress_.Report(
+      this->Span_.To - (this->Span_.To - this->Span_.From) * std::exp(-ProgressRate * this->Done_));
+  }
+  this->ShareSums();
+}
+
+void BatchSweeps::Restart()
+{
+  for (BatchState& state : this->States_)
+  {
+    state.Restart();
+  }
+}
+
+void BatchSweeps::Follow()
+{
+  this->Arena_.execute([this] { this->Sweep_.Follow(this->States_); });
+}
+
+void BatchSweeps::ShareSums()
+{
+  // 64 bytes for each cell and each side of a patch, which is little against a sweep's work. The
+  // latest estimates stay with their owners: nobody else goes on from them.
+  std::vector<Team::Part> parts;
+  for (std::size_t i = 0; i < this->States_.size(); ++i)
+  {
+    BatchState& state = this->States_[i];
+    const int owner = this->Team_.OwnerOf(i);
+    parts.push_back(Team::PartOf(owner, state.FluenceSum.data(), state.FluenceSum.size()));
+    parts.push_back(Team::PartOf(owner, state.IlluminanceSum.data(), state.IlluminanceSum.size()));
+    parts.push_back(Team::PartOf(owner, &state.EscapedSum, 1));
+    parts.push_back(Team::PartOf(owner, &state.Counted, 1));
+    parts.push_back(Team::PartOf(owner, &state.Watched, 1));
+  }
+  this->Team_.Share(parts);
+}
+
+} // namespace smokevis

@@ -1,0 +1,74 @@
+// Mean light of blocks of a scene, by which drift from sweep to sweep is told from noise.
+#pragma once
+
+#include "BatchState.h"
+#include "LightField.h"
+
+#include <vector>
+
+#include <tbb/task_arena.h>
+
+namespace smokevis
+{
+
+/// Power that blocks of cells and of patches send on [lm], a value a batch. Comparing those of
+/// two windows of sweeps tells drift from noise, since the noise shows in the spread of the
+/// batches.
+class BlockMeans
+{
+public:
+  BlockMeans() = default;
+  /// From the running means of the batches; the direct light of the band is what it adds to.
+  /// @param arena whose threads work on the batches
+  BlockMeans(const std::vector<BatchState>& batches, const Scene& scene, const LightField& field,
+    int band, tbb::task_arena& arena);
+
+  /// Those of the sweeps since earlier means of the same sums were taken.
+  BlockMeans Since(const BlockMeans& earlier) const;
+
+  /// Root mean square, over the blocks, of a drift over all light of the block (or over a floor
+  /// where a block lies in the dark).
+  struct Drift
+  {
+    /// Noise taken out; below the lower bound noise would hardly have taken it, and the upper one
+    /// is a standard error above it.
+    double LowerBound = 0.0;
+    double Estimate = 0.0;
+    double UpperBound = 0.0;
+
+    /// Whether its square is less than a standard error of that.
+    bool IsNoise() const
+    {
+      return 2.0 * this->Estimate * this->Estimate < this->UpperBound * this->UpperBound;
+    }
+  };
+  /// Drift from an earlier window to this one.
+  /// @param resolution relative error that need not be resolved
+  Drift DriftSince(const BlockMeans& earlier, double resolution) const;
+
+private:
+  struct Block
+  {
+    /// Of direct light, and a floor.
+    double Direct = 0.0;
+    /// A value a batch.
+    std::vector<double> Multiple;
+    bool Lit = false;
+  };
+
+  /// Which block a value belongs to, and what it counts there.
+  struct Share
+  {
+    std::size_t Block = 0;
+    double Weight = 0.0;
+  };
+  void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
+    const float* direct, const std::vector<Share>& shares);
+
+  /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
+  std::vector<Block> Blocks_;
+  /// Sweeps that they are means of.
+  int Counted_ = 0;
+};
+
+} // namespace smokevis

@@ -1,0 +1,229 @@
+#include "MultipleSolve.h"
+
+#include "BatchSweeps.h"
+#include "DirectField.h"
+#include "Errors.h"
+#include "LineSweep.h"
+#include "PlateGather.h"
+#include "PowerBalance.h"
+#include "Sampler.h"
+#include "ScatterBound.h"
+#include "Settling.h"
+#include "Team.h"
+#include "VeilProbes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Share of the tolerance that the standard error of the veil is brought down to.
+constexpr double ErrorShare = 0.5;
+/// Share of the tolerance that light may be of which a bound shows that it is no more.
+constexpr double NegligibleShare = 0.25;
+/// Share of a band's part of the progress bar that its sweeps take.
+constexpr double SweepShare = 0.9;
+
+} // namespace
+
+MultipleSolve::MultipleSolve(const Scene& scene, const LightFieldOptions& options, Team& team,
+  Progress& progress, tbb::task_arena& arena, double from, LightField& field)
+    : Scene_(scene), Options_(options), Team_(team), Progress_(progress), Arena_(arena),
+      From_(from), Field_(field)
+{
+}
+
+MultipleSolve::~MultipleSolve() = default;
+
+std::string MultipleSolve::WhyNone(int band) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const EmitterSet& lights = this->Scene_.Lights();
+  bool sent = this->Scene_.Sky() > 0.0 || smoke.Emits() ||
+              (this->Scene_.Albedo() > 0.0 && smoke.MaximumExtinction() > 0.0F &&
+                this->Scene_.ExtinctionScale(band) > 0.0);
+  for (std::size_t patch = 0; patch < this->Field_.Patches && !sent; ++patch)
+  {
+    sent = this->Scene_.PatchReflectance(patch)[band] > 0.0;
+  }
+  for (std::size_t cell = 0; cell < lights.Cells().size() && !sent; ++cell)
+  {
+    sent = lights.LeftToLines(cell);
+  }
+  return sent ? "" : "albedo or extinction is 0 and no surface reflects";
+}
+
+double MultipleSolve::LargestShare(int band, const VeilProbes& toSigns) const
+{
+  const auto bound = ScatterBound::Of(this->Scene_, band);
+  if (!bound)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  const auto fluence = [&bound](std::int64_t cell) { return bound->Fluence(cell); };
+  const double share = toSigns.LargestShare(fluence, bound->Illuminance());
+  if (this->Scene_.Lights().Signs().empty())
+  {
+    return share;
+  }
+  // Views may look elsewhere than to signs, into places where no sign is seen from.
+  const VeilProbes anywhere(
+    this->Scene_, this->Field_, band, this->Options_.Seed, VeilProbes::Lines::Anywhere);
+  return std::max(share, anywhere.LargestShare(fluence, bound->Illuminance()));
+}
+
+void MultipleSolve::Refine(BatchSweeps& sweeps, const VeilProbes& probes) const
+{
+  const double wanted = ErrorShare * this->Options_.Tolerance;
+  for (double error = probes.RelativeError(sweeps.States());
+       error > wanted && sweeps.Done() < Settling::MostSweeps;
+       error = probes.RelativeError(sweeps.States()))
+  {
+    // The error falls with the root of the sweeps: as many as seem to be missing, at most as many
+    // again.
+    const double share = error / wanted;
+    const double missing = sweeps.Counted() * (std::min(2.0, share * share) - 1.0);
+    sweeps.Draw(
+      std::clamp(static_cast<int>(std::ceil(missing)), 1, Settling::MostSweeps - sweeps.Done()));
+  }
+}
+
+void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
+{
+  const std::vector<BatchState>& states = sweeps.States();
+  const auto counted = static_cast<float>(sweeps.Counted());
+  const auto keep = [&](std::vector<float> BatchState::*sums, std::size_t count, Lanes* lanes)
+  {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
+      [&](const tbb::blocked_range<std::size_t>& range)
+      {
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          const float* const sum = (states[batch].*sums).data();
+          for (std::size_t i = range.begin(); i < range.end(); ++i)
+          {
+            lanes[i][batch] = sum[i] / counted;
+          }
+        }
+      });
+  };
+  this->Arena_.execute(
+    [&]
+    {
+      keep(&BatchState::FluenceSum, this->Field_.Cells,
+        this->Field_.MultipleFluence.data() + this->Field_.CellIndex(band, 0));
+      keep(&BatchState::IlluminanceSum, 2 * this->Field_.Patches,
+        this->Field_.MultipleIlluminance.data() + this->Field_.PatchIndex(band, 0, 0));
+    });
+}
+
+void MultipleSolve::Gather(int band, const LineSweep& sweep, const std::string& name)
+{
+  this->Arena_.execute(
+    [&]
+    {
+      const auto [plates, rays] =
+        PlateGather(this->Scene_, this->Options_, *this->Inside_, sweep.Shape(), this->Field_, band)
+          .Run(this->Team_, this->Progress_);
+      if (plates > 0)
+      {
+        this->Say(name + "rays gathered by signs", static_cast<double>(rays),
+          std::to_string(plates) + " plates reflect light that lines would rarely bring");
+      }
+    });
+}
+
+void MultipleSolve::Tell(
+  const std::string& name, const BatchSweeps& sweeps, int settling, double error)
+{
+  const auto lines = static_cast<double>(sweeps.LinesABatch());
+  this->Say(name + "settling sweeps", settling,
+    "orders of scattering had to build up, first with fewer lines");
+  this->Say(name + "counted sweeps", sweeps.Counted(),
+    "until the standard error of the veil along lines of sight met the tolerance");
+  this->Say(name + "lines of a batch in all", lines, "of whole sweeps and of thin ones");
+  for (int rank = 0; rank < this->Team_.Size() && this->Team_.Size() > 1; ++rank)
+  {
+    const std::size_t own = this->Team_.OwnCount(Batches, rank);
+    this->Say(name + "lines of process " + std::to_string(rank), lines * static_cast<double>(own),
+      "it sweeps " + std::to_string(own) + " of " + std::to_string(Batches) + " batches");
+  }
+  this->Say(name + "relative standard error of the veil", error,
+    error <= ErrorShare * this->Options_.Tolerance ? "tolerance met" : "most sweeps reached");
+}
+
+void MultipleSolve::Band(int band)
+{
+  const std::string name = "band " + std::to_string(band) + ": ";
+  const auto skip = [&](const std::string& why) {
+    this->Say(name + "multiple scattering skipped", static_cast<double>(this->Field_.Cells), why);
+  };
+  if (const std::string why = this->WhyNone(band); !why.empty())
+  {
+    skip(why);
+    return;
+  }
+  const VeilProbes probes(this->Scene_, this->Field_, band, this->Options_.Seed);
+  if (this->Options_.Skips)
+  {
+    const double share = this->LargestShare(band, probes);
+    if (share <= NegligibleShare * this->Options_.Tolerance)
+    {
+      skip("a bound shows that it adds at most " + std::to_string(100.0 * share) +
+           " % to the direct light along lines of sight");
+      return;
+    }
+  }
+  std::optional<LineSweep> sweep;
+  this->Arena_.execute(
+    [&]
+    {
+      if (!this->Inside_)
+      {
+        this->Inside_ = std::make_unique<DirectField>(this->Scene_, this->Field_);
+      }
+      sweep.emplace(this->Scene_, this->Field_, *this->Inside_, band, this->Options_.Tolerance,
+        this->Progress_);
+    });
+  if (this->Progress_.ShouldStop())
+  {
+    throw Error("light field", "the work was stopped");
+  }
+  const PowerBalance balance(this->Scene_, this->Field_, band, sweep->Outer(), this->Arena_);
+  if (!(balance.Source() > 0.0))
+  {
+    skip("no light reaches anything that could send it on");
+    return;
+  }
+  const double part = (1.0 - this->From_) / this->Field_.Bands;
+  const double from = this->From_ + part * band;
+  BatchSweeps sweeps(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
+    this->Team_, this->Arena_, this->Progress_, {from, from + SweepShare * part});
+  Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
+    this->Arena_, sweeps)
+    .Run();
+  const int settling = sweeps.Done() - sweeps.Counted();
+  this->Refine(sweeps, probes);
+  balance.ScaleSums(balance.Of(sweeps.States()), sweeps.States());
+  this->Keep(band, sweeps);
+  this->Gather(band, *sweep, name);
+  this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
+  this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
+    "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");
+  if (const std::size_t thick = sweep->Thick().Count(); thick > 0)
+  {
+    this->Say(name + "thick cells", static_cast<double>(thick),
+      "what they scatter to themselves is summed up, not swept");
+  }
+}
+
+} // namespace smokevis
