@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -100,12 +101,13 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
   {
     all += block.Direct + MeanOf(block.Multiple);
   }
+  this->Floor_ = DarkShare * all / static_cast<double>(this->Blocks_.size());
   for (Block& block : this->Blocks_)
   {
     // What holds no light at all is known perfectly, which tells nothing of the rest.
     block.Lit = block.Direct > 0.0 || std::any_of(block.Multiple.begin(), block.Multiple.end(),
                                         [](double value) { return value != 0.0; });
-    block.Direct += DarkShare * all / static_cast<double>(this->Blocks_.size());
+    block.Direct += this->Floor_;
   }
 }
 
@@ -118,7 +120,12 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
     count = std::max(count, share.Block + 1);
   }
   const std::size_t first = this->Blocks_.size();
-  this->Blocks_.resize(first + count, Block{0.0, std::vector<double>(batches.size(), 0.0), false});
+  this->Blocks_.resize(
+    first + count, Block{0.0, 0.0, std::vector<double>(batches.size(), 0.0), false});
+  for (const Share& share : shares)
+  {
+    this->Blocks_[first + share.Block].Size += share.Weight;
+  }
   const auto sums = [&](const float* light)
   {
     std::vector<double> sum(count, 0.0);
@@ -141,6 +148,24 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
           all ? sum[block] : sum[block] / std::max(1, batches[batch].Counted);
       }
     });
+}
+
+double BlockMeans::DarkestShare() const
+{
+  double all = 0.0;
+  double sizes = 0.0;
+  double darkest = std::numeric_limits<double>::infinity();
+  for (const Block& block : this->Blocks_)
+  {
+    if (block.Lit && block.Size > 0.0)
+    {
+      const double light = block.Direct - this->Floor_ + std::max(0.0, MeanOf(block.Multiple));
+      all += light;
+      sizes += block.Size;
+      darkest = std::min(darkest, light / block.Size);
+    }
+  }
+  return all > 0.0 ? std::clamp(darkest * sizes / all, DarkShare, 1.0) : 1.0;
 }
 
 BlockMeans BlockMeans::Since(const BlockMeans& earlier) const

@@ -46,9 +46,15 @@ public:
   /// @param resolution relative error that need not be resolved
   Drift DriftSince(const BlockMeans& earlier, double resolution) const;
 
+  /// Mean light of the block that is darkest over that of all, no less than a tenth: light that
+  /// has yet to build up counts for more there.
+  double DarkestShare() const;
+
 private:
   struct Block
   {
+    /// What light of one unit everywhere would add up to.
+    double Size = 0.0;
     /// Of direct light, and a floor.
     double Direct = 0.0;
     /// A value a batch.
@@ -69,6 +75,8 @@ private:
   std::vector<Block> Blocks_;
   /// Sweeps that they are means of.
   int Counted_ = 0;
+  /// Light that each of them is given besides its own.
+  double Floor_ = 0.0;
 };
 
 } // namespace smokevis

@@ -17,6 +17,9 @@ namespace
 constexpr double CrossingsPerSweep = 1.5;
 constexpr double FewestLines = 512.0;
 constexpr double MostLinesForPatches = 20000.0;
+/// Below a tolerance so many times as many meet patches, which makes it so much finer, at most.
+constexpr double FineTolerance = 0.03;
+constexpr double MostTimes = 2.0;
 /// How many times the smoke's box the scene's must be for lines through the smoke's alone.
 constexpr double InnerRatio = 3.0;
 
@@ -28,9 +31,10 @@ Box SceneBox(const Scene& scene)
 }
 
 /// How many lines through a box patches need, where surfaces send light on or out.
+/// @param meetings of each patch, in the mean
 /// @param serves which patches count
 double LinesForPatches(
-  const Scene& scene, int band, const Box& box, const std::vector<bool>& serves)
+  const Scene& scene, int band, double meetings, const Box& box, const std::vector<bool>& serves)
 {
   double area = 0.0;
   // The cells of a sign share their indirect light.
@@ -52,9 +56,9 @@ double LinesForPatches(
     }
   }
   // Patches that are tiny against the box are not worth a flood of lines.
-  return area > 0.0 ? std::min(CrossingsPerSweep * reflecting * box.Surface() / (2.0 * area),
-                        MostLinesForPatches)
-                    : 0.0;
+  return area > 0.0
+           ? std::min(meetings * reflecting * box.Surface() / (2.0 * area), MostLinesForPatches)
+           : 0.0;
 }
 
 } // namespace
@@ -73,9 +77,10 @@ std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
   return inside;
 }
 
-GlobalLines ChooseLines(const Scene& scene, int band)
+GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)
 {
   const Medium& smoke = scene.Smoke();
+  const double meetings = CrossingsPerSweep * std::clamp(FineTolerance / tolerance, 1.0, MostTimes);
   double boundary = 0.0;
   for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
   {
@@ -93,13 +98,13 @@ GlobalLines ChooseLines(const Scene& scene, int band)
   if (smoke.Empty() || box.Surface() < InnerRatio * inner.Surface())
   {
     const std::vector<bool> all(scene.Patches(), true);
-    return {
-      box, count(std::max(linesPerArea * box.Surface(), LinesForPatches(scene, band, box, all)))};
+    return {box, count(std::max(linesPerArea * box.Surface(),
+                   LinesForPatches(scene, band, meetings, box, all)))};
   }
   std::vector<bool> inside = PatchesIn(scene, inner);
-  const double forInside = LinesForPatches(scene, band, inner, inside);
+  const double forInside = LinesForPatches(scene, band, meetings, inner, inside);
   inside.flip();
-  GlobalLines lines(box, count(LinesForPatches(scene, band, box, inside)));
+  GlobalLines lines(box, count(LinesForPatches(scene, band, meetings, box, inside)));
   lines.AddInner(inner, count(std::max(linesPerArea * inner.Surface(), forInside)));
   return lines;
 }

@@ -11,8 +11,9 @@ namespace smokevis
 class Scene;
 
 /// Lines through the scene that cross each smoke cell about 1.5 times and meet each patch that
-/// sends light on or out as often, in the mean.
-GlobalLines ChooseLines(const Scene& scene, int band);
+/// sends light on or out as often, in the mean; these more often below a tolerance of 0.03, so that
+/// they need not be put together (PatchGroups).
+GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
 
 /// Which patches lie in a box.
 std::vector<bool> PatchesIn(const Scene& scene, const Box& box);

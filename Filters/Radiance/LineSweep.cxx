@@ -23,6 +23,9 @@ constexpr double FewestShare = 0.25;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
 
+/// Hits that sides need in a thin sweep, over the square of their reflectance: of the variance that
+/// a sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
+constexpr double HitsASquare = 2.0;
 /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
 constexpr float FewestHits = 0.25F;
 
@@ -55,9 +58,10 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(ChooseLines(scene, band)), ThinLines_(Lines_.Thinned(ThinShare))
+      Lines_(ChooseLines(scene, band, tolerance)), ThinLines_(Lines_)
 {
-  this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
+  const double share = std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);
+  this->Lines_ = this->Lines_.Thinned(share);
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
@@ -95,6 +99,26 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), inside[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
+  this->ThinLines_ =
+    this->ThinLines_.Thinned(std::min(share, std::max(ThinShare, share * this->HitsShare())));
+}
+
+double LineSweep::HitsShare() const
+{
+  double weights = 0.0;
+  double sum = 0.0;
+  for (std::size_t side = 0; side < this->SideHits_.size(); ++side)
+  {
+    const double reflectance = this->Scene_.PatchReflectance(side / 2)[this->Band_];
+    const double weight = reflectance * this->Scene_.ExposedArea(side / 2, side % 2);
+    if (weight > 0.0)
+    {
+      weights += weight;
+      sum +=
+        weight * std::min(1.0, HitsASquare * reflectance * reflectance / this->SideHits_[side]);
+    }
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const

@@ -75,7 +75,7 @@ public:
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
-  /// Share of the lines that a thin sweep has, of those that a small tolerance needs.
+  /// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
   static constexpr double ThinShare = 0.25;
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
@@ -96,6 +96,8 @@ private:
   void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
     Buffers& buffers) const;
+  /// Share of a whole sweep's lines that surfaces need for noise not to grow, in the mean.
+  double HitsShare() const;
   /// Share of a whole sweep's lines that a sweep has.
   float ShareOf(bool thin) const
   {

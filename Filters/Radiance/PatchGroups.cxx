@@ -15,9 +15,10 @@ namespace smokevis
 namespace
 {
 
-/// Sides that fewer lines meet in a sweep are put together until about so many do. Each patch alone
-/// is what a sweep's lines are counted for (ChooseLines), as far as there are not too many.
-constexpr float FewestHits = 0.7F;
+/// Sides that fewer lines meet in a sweep are put together until about so many do. Each sweep sends
+/// on what the last one found: of its variance the square of the reflectance over the hits, which
+/// must be well below 1.
+constexpr double FewestHits = 2.0;
 constexpr double GroupHits = 4.0;
 /// Share of the scene's size that corners of neighbours may lie apart.
 constexpr double SameCorner = 1e-7;
@@ -35,8 +36,7 @@ using Kind = std::tuple<int, std::array<std::int64_t, 3>, int, double>;
 
 Kind KindOf(const Place& place, double hits, double reflectance)
 {
-  const int scale =
-    static_cast<int>(std::lround(std::log2(std::sqrt(GroupHits * place.Area / hits))));
+  const int scale = static_cast<int>(std::lround(0.5 * std::log2(GroupHits * place.Area / hits)));
   const double edge = std::exp2(scale);
   std::array<std::int64_t, 3> cube;
   int facing = 0;

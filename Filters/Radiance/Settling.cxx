@@ -19,18 +19,17 @@ namespace
 
 /// Thin sweeps with which the orders of scattering build up, at most, and the share of the
 /// tolerance that the light may be of which they know nothing yet.
-constexpr int MostThinSweeps = 16;
+constexpr int MostThinSweeps = 32;
 constexpr double UncountedShare = 0.5;
+/// Light that was sent on so often is taken to lie evenly all over the scene.
+constexpr double EvenOrders = 4.0;
 /// Share of the tolerance that the drift from window to window may be.
 constexpr double DriftShare = 0.7;
 /// Share of that which noise may hide where next to no light is sent on any more that could drift:
 /// the mean over two windows has half the noise of their difference.
 constexpr double HiddenShare = 2.0;
-/// A window shows of what has yet to settle the share that its sweeps do not send on any more.
-/// Where that is less than this, a drift counts for more than is seen of it.
-constexpr double ShownShare = 0.3;
-/// Of how little of a drift is seen at least: what thick cells send to themselves is sent on, too,
-/// but waits for no sweeps.
+/// A window shows of what has yet to settle the share that its sweeps do not send on any more, or
+/// this at least: what thick cells send to themselves is sent on, too, but waits for no sweeps.
 constexpr double LeastShown = 0.2;
 /// Standard errors of the veil that the same drift may be. All batches drift alike, so that error
 /// bars, which tell their spread, do not tell it; what is left to drift is a small part of what has
@@ -51,21 +50,34 @@ Settling::Settling(const Scene& scene, const LightField& field, int band, double
   const PowerBalance& balance, const VeilProbes& probes, tbb::task_arena& arena,
   BatchSweeps& sweeps)
     : Scene_(scene), Field_(field), Band_(band), Tolerance_(tolerance),
-      Limit_(DriftShare * tolerance), Balance_(balance), Probes_(probes), Arena_(arena),
-      Sweeps_(sweeps)
+      Limit_(DriftShare * tolerance), Uncounted_(UncountedShare * Limit_), Balance_(balance),
+      Probes_(probes), Arena_(arena), Sweeps_(sweeps)
 {
+}
+
+double Settling::Lacking(double sent, int sweeps) const
+{
+  const double even = std::pow(sent, EvenOrders);
+  return std::pow(sent, sweeps) * (1.0 + even * (1.0 / this->Darkest_ - 1.0));
 }
 
 void Settling::BuildUp()
 {
-  for (double left = 1.0;
-       this->Sweeps_.Done() < MostThinSweeps && left > UncountedShare * this->Limit_;)
+  for (double left = 1.0; this->Sweeps_.Done() < MostThinSweeps && left > this->Uncounted_;)
   {
     // The first sweeps differ much: each is balanced by its own loss.
     this->Sweeps_.Restart();
     this->Sweeps_.Draw(1, true);
-    const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(this->Sweeps_.States());
-    left = std::pow(this->Balance_.SentAgain(powers), this->Sweeps_.Done());
+    const std::vector<BatchState>& states = this->Sweeps_.States();
+    const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
+    const double sent = this->Balance_.SentAgain(powers);
+    if (std::pow(sent, this->Sweeps_.Done()) <= this->Uncounted_ ||
+        this->Sweeps_.Done() == MostThinSweeps)
+    {
+      this->Darkest_ =
+        BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
+    }
+    left = this->Lacking(sent, this->Sweeps_.Done());
     this->Balance_.ScaleLatest(powers, this->Sweeps_.States());
     this->Sweeps_.Follow();
   }
@@ -75,8 +87,7 @@ void Settling::BuildUp()
 Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& window) const
 {
   Verdict verdict;
-  const double shown =
-    std::clamp((1.0 - std::pow(window.Sent, window.Sweeps)) / ShownShare, LeastShown, 1.0);
+  const double shown = std::max(LeastShown, 1.0 - std::pow(window.Sent, window.Sweeps));
   verdict.Drifts = drift.LowerBound > 0.0;
   verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
   verdict.Tolerable = drift.UpperBound < this->Limit_ * (window.Over ? 1.0 : shown) ||
@@ -86,7 +97,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
     this->Probes_.RelativeError(this->Sweeps_.States()), LeastErrorShare * this->Tolerance_);
   // Sweeps without end would be needed to tell that noise is no drift: there the share does that
   // the sums lack of what is sent on.
-  const double lacking = std::pow(window.Sent, window.Before) /
+  const double lacking = this->Lacking(window.Sent, window.Before) /
                          std::max(1.0, (1.0 - window.Sent) * this->Sweeps_.Counted());
   verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
                                            (drift.IsNoise() && lacking <= LackingErrors * error));
@@ -118,7 +129,7 @@ void Settling::Run()
     BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
     window.Sent = this->Balance_.SentAgain(powers);
-    window.Over = std::pow(window.Sent, window.Before) < UncountedShare * this->Limit_;
+    window.Over = this->Lacking(window.Sent, window.Before) < this->Uncounted_;
     Verdict verdict;
     if (earlier)
     {

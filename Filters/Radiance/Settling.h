@@ -54,6 +54,8 @@ private:
     bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
   };
 
+  /// Share of the light, where it is darkest, that is sent on more often than so many times.
+  double Lacking(double sent, int sweeps) const;
   void BuildUp();
   Verdict Judge(const BlockMeans::Drift& drift, const Window& window) const;
   /// Throws Error where a drift stands out of noise even now.
@@ -65,6 +67,10 @@ private:
   double Tolerance_;
   /// Drift that is allowed.
   double Limit_;
+  /// Share of the light that may be sent on once more than sweeps count.
+  double Uncounted_;
+  /// Light where it is darkest over the mean.
+  double Darkest_ = 1.0;
   const PowerBalance& Balance_;
   const VeilProbes& Probes_;
   tbb::task_arena& Arena_;
