@@ -18,8 +18,14 @@ namespace
 /// Sides that fewer lines meet in a sweep are put together until about so many do. Each sweep sends
 /// on what the last one found: of its variance the square of the reflectance over the hits, which
 /// must be well below 1.
-constexpr double FewestHits = 2.0;
 constexpr double GroupHits = 4.0;
+double FewestHits(double reflectance)
+{
+  constexpr double least = 0.7;
+  constexpr double aSquare = 2.5;
+  return std::max(least, aSquare * reflectance * reflectance);
+}
+
 /// Share of the scene's size that corners of neighbours may lie apart.
 constexpr double SameCorner = 1e-7;
 
@@ -81,7 +87,7 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
   const auto small = [&](std::size_t patch)
   {
     const float most = std::max(hits[2 * patch], hits[2 * patch + 1]);
-    return most > 0.0F && most < FewestHits;
+    return most > 0.0F && most < FewestHits(scene.PatchReflectance(patch)[band]);
   };
   scene.ForEachTriangle(
     [&](std::size_t patch, const std::array<Vec3, 3>& corners)

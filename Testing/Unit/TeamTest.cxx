@@ -58,6 +58,39 @@ private:
   int Rank_;
 };
 
+/// Adds the six walls of a box; the front sides of their triangles are outside.
+void AddBox(SceneDescription& scene, const Vec3& low, const Vec3& high, const Spectrum& reflectance)
+{
+  const auto first = static_cast<std::uint32_t>(scene.Surfaces.Points.size());
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    scene.Surfaces.Points.emplace_back(
+      corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> walls = {
+    {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
+  for (const auto& wall : walls)
+  {
+    const auto cell = static_cast<std::uint32_t>(scene.Surfaces.CellReflectance.size());
+    for (const auto& triangle : {std::array{0, 1, 2}, std::array{0, 2, 3}})
+    {
+      scene.Surfaces.Triangles.push_back(
+        {first + wall[triangle[0]], first + wall[triangle[1]], first + wall[triangle[2]]});
+      scene.Surfaces.TriangleCell.push_back(cell);
+    }
+    scene.Surfaces.CellReflectance.push_back(reflectance);
+  }
+}
+
+EmitterCell Plate(const Vec3& corner, const Vec3& along, const Vec3& up, double luminance)
+{
+  EmitterCell cell;
+  cell.Vertices = {corner, corner + along, corner + along + up, corner + up};
+  cell.Luminance = {luminance, luminance, luminance};
+  cell.Reflectance = {0.6, 0.6, 0.6};
+  return cell;
+}
+
 /// A room with grey walls, coloured smoke that thickens to one side, a lamp, and two signs that
 /// reflect.
 SceneDescription Room()
@@ -79,36 +112,24 @@ SceneDescription Room()
     grid.Extinction.push_back(0.1F * static_cast<float>(cell % 12));
   }
   scene.Grids = {grid};
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    scene.Surfaces.Points.emplace_back(
-      corner & 1 ? 4.0 : 0.0, corner & 2 ? 3.0 : 0.0, corner & 4 ? 2.4 : 0.0);
-  }
-  constexpr std::array<std::array<int, 4>, 6> walls = {
-    {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
-  for (const auto& wall : walls)
-  {
-    const auto cell = static_cast<std::uint32_t>(scene.Surfaces.CellReflectance.size());
-    for (const auto& triangle : {std::array{0, 1, 2}, std::array{0, 2, 3}})
-    {
-      scene.Surfaces.Triangles.push_back({static_cast<std::uint32_t>(wall[triangle[0]]),
-        static_cast<std::uint32_t>(wall[triangle[1]]),
-        static_cast<std::uint32_t>(wall[triangle[2]])});
-      scene.Surfaces.TriangleCell.push_back(cell);
-    }
-    scene.Surfaces.CellReflectance.push_back({0.5, 0.4, 0.3});
-  }
+  AddBox(scene, Vec3(0.0), {4.0, 3.0, 2.4}, {0.5, 0.4, 0.3});
   for (int sign = 0; sign < 3; ++sign)
   {
-    EmitterCell cell;
-    const double low = 0.5 + 0.7 * sign;
-    cell.Vertices = {
-      {0.01, low, 1.6}, {0.01, low + 0.4, 1.6}, {0.01, low + 0.4, 1.8}, {0.01, low, 1.8}};
-    cell.Luminance = {100.0, 200.0 + sign, 100.0};
-    cell.Reflectance = {0.6, 0.6, 0.6};
+    EmitterCell cell = Plate({0.01, 0.5 + 0.7 * sign, 1.6}, {0, 0.4, 0}, {0, 0, 0.2}, 100.0);
+    cell.Luminance[1] = 200.0 + sign;
     cell.SignId = sign < 2 ? sign : -1;
     scene.Emitters.push_back(cell);
   }
+  return scene;
+}
+
+/// The same with a closed white box around a faint lamp, whose light is balanced by itself.
+SceneDescription RoomWithWhiteBox()
+{
+  SceneDescription scene = Room();
+  scene.Bands = 1;
+  AddBox(scene, {2.0, 1.0, 1.0}, {2.6, 1.6, 1.6}, {0.99, 0.99, 0.99});
+  scene.Emitters.push_back(Plate({2.3, 1.3, 1.5}, {0, 0.05, 0}, {0.05, 0, 0}, 0.1));
   return scene;
 }
 
@@ -202,6 +223,20 @@ TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
     {
       EXPECT_EQ(shared, lines);
     }
+  }
+}
+
+TEST(TeamTest, LightThatIsBalancedByItself)
+{
+  const Scene scene(RoomWithWhiteBox());
+  LightFieldOptions options;
+  options.Tolerance = 0.1;
+  Progress progress;
+  const LightField alone = SolveLightField(scene, options, progress);
+  for (const LightField& own : SolveTogether(scene, 3))
+  {
+    EXPECT_TRUE(SameBits(alone.MultipleFluence, own.MultipleFluence));
+    EXPECT_TRUE(SameBits(alone.MultipleIlluminance, own.MultipleIlluminance));
   }
 }
 
