@@ -13,11 +13,12 @@ namespace smokevis
 namespace
 {
 
-/// Few blocks are known well; more would only show how noise differs from place to place. Cells
-/// count by where they lie, so that it does not matter how meshes part the smoke; it lies in
-/// layers.
-constexpr std::array<int, 3> CellBlocks = {2, 2, 4};
-constexpr std::size_t MostPatchBlocks = 16;
+/// Cells count by where they lie, so that it does not matter how meshes part the smoke. Few blocks
+/// do not show a drift that is little of their light, as that of a white room in a large scene;
+/// still more would only show how noise differs from place to place.
+constexpr std::array<int, 3> CellBlocks = {4, 4, 4};
+/// First of the fronts, then of the backs of patches.
+constexpr std::size_t MostPatchBlocks = 64;
 /// Share of the mean light of all blocks that a dark block is given, so that it need not be known
 /// to a share of next to nothing.
 constexpr double DarkShare = 0.1;
@@ -86,7 +87,8 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
   const std::size_t patchBlocks = std::min(MostPatchBlocks, shares.size());
   for (std::size_t side = 0; side < shares.size(); ++side)
   {
-    shares[side] = {side * patchBlocks / shares.size(),
+    const std::size_t place = (side % 2) * field.Patches + side / 2;
+    shares[side] = {place * patchBlocks / shares.size(),
       scene.ExposedArea(side / 2, side % 2) *
         std::max(DarkShare, scene.PatchReflectance(side / 2)[band])};
   }

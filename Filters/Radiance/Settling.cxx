@@ -90,7 +90,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   const double shown = std::max(LeastShown, 1.0 - std::pow(window.Sent, window.Sweeps));
   verdict.Drifts = drift.LowerBound > 0.0;
   verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
-  verdict.Tolerable = drift.UpperBound < this->Limit_ * (window.Over ? 1.0 : shown) ||
+  verdict.Tolerable = drift.UpperBound < this->Limit_ * shown ||
                       (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ &&
                         drift.UpperBound < HiddenShare * this->Limit_);
   const double error = std::max(
