@@ -33,7 +33,7 @@ namespace
 
 /// Thin sweeps with which the orders of scattering build up, at most, and the share of the
 /// tolerance that the light may be of which they know nothing yet.
-constexpr int MostThinSweeps = 16;
+constexpr int MostThinSweeps = 32;
 constexpr double UncountedShare = 0.5;
 /// Sweeps that may be drawn in all.
 constexpr int MostSweeps = 768;
