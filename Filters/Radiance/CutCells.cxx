@@ -48,15 +48,14 @@ public:
     this->Cut_.Cell = cell;
   }
 
-  void AddWall(const std::array<Vec3, 3>& corners)
+  void AddWall(const Triangle& corners)
   {
-    const Vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const Polygon polygon = InBox(
       {corners[0] - this->Base_, corners[1] - this->Base_, corners[2] - this->Base_}, this->Box_);
-    const double area = 0.5 * glm::length(AreaVector(polygon));
-    if (area > this->LeastArea_ && glm::length(across) > 0.0)
+    const double area = glm::length(AreaVector(polygon));
+    if (area > this->LeastArea_ && AreaOf(corners) > 0.0)
     {
-      const Vec3 normal = glm::normalize(across);
+      const Vec3 normal = glm::normalize(AreaVector(corners));
       this->Walls_.push_back({{normal, glm::dot(normal, polygon[0])}, polygon, area});
     }
   }
@@ -173,7 +172,7 @@ private:
       Wall part{wall.Where, {}, 0.0};
       KeepSide(
         wall.Corners, [&](const Vec3& point) { return sign * plane.Height(point); }, part.Corners);
-      part.Area = 0.5 * glm::length(AreaVector(part.Corners));
+      part.Area = glm::length(AreaVector(part.Corners));
       if (part.Area > this->LeastArea_)
       {
         kept.push_back(std::move(part));
@@ -366,7 +365,7 @@ CellParts FindCellParts(const Scene& scene)
         const std::size_t end = i + 1 < first.size() ? first[i + 1] : found.Meetings.size();
         for (std::size_t meeting = first[i]; meeting < end; ++meeting)
         {
-          cutter.AddWall(found.Walls[found.Meetings[meeting].Triangle]);
+          cutter.AddWall(found.Walls[found.Meetings[meeting].Wall]);
         }
         cuts[i] = cutter.Run();
       }

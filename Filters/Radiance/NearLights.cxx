@@ -49,7 +49,7 @@ NearLights::NearLights(const Scene& scene)
   {
     const double reach = this->FindCells(light);
     // Light that changes quickly with the angle would need finer lattices.
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const LightGroup& root = lights.Root(light);
     if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
       this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, reach);
@@ -63,7 +63,7 @@ NearLights::NearLights(const Scene& scene)
       for (Light& light : cell.Lights)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
-        const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+        const LightGroup& root = lights.Root(light.Index);
         const double distance = root.Distance(smoke.CellCentre(cell.Index));
         light.Close = distance < CloseEdges * edge;
         light.Touches = distance < TouchEdges * edge &&
@@ -151,8 +151,7 @@ double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
 double NearLights::FindCells(std::size_t light)
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const double largest = NearEdges * smoke.LargestEdge();
   const Vec3 low = glm::min(glm::min(root.Corners[0], root.Corners[1]),
                      glm::min(root.Corners[2], root.Corners[3])) -
