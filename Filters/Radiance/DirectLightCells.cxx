@@ -1,8 +1,10 @@
 // DirectLight's part for smoke cells: means over cells and over parts of them.
 #include "DirectLight.h"
 
+#include "ExponentialMean.h"
 #include "GaussNodes.h"
 #include "NearLights.h"
+#include "Places.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -24,19 +26,10 @@ constexpr double FlatRatio = 0.2;
 constexpr double TwoPointDepth = 1.2;
 constexpr double DeepestGauss = 4.0;
 
-/// Mean place of exp(-2 x t) over t in (-1/2, 1/2), times -2: coth x - 1 / x.
-double Langevin(double x)
-{
-  return std::abs(x) < 1e-3 ? x / 3.0 : 1.0 / std::tanh(x) - 1.0 / x;
-}
-
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
 double MeanAttenuation(double x, double shift)
 {
-  const double size = std::abs(x);
-  const double logarithm =
-    size < 1e-3 ? size * size / 6.0 : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
-  return std::exp(logarithm - x * shift);
+  return std::exp(LogarithmOfMean(x) - x * shift);
 }
 
 struct GaussPlace
