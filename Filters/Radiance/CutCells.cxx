@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include <boost/pending/disjoint_sets.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -69,7 +70,6 @@ public:
     }
     const std::int32_t root =
       this->Divide(ConvexSolid(this->Box_), std::move(this->Walls_), MostPlanes);
-    this->JoinPieces();
     this->MakeParts();
     if (this->Cut_.Parts.size() < 2)
     {
@@ -99,8 +99,7 @@ private:
     double Volume;
     Vec3 Centre;
     std::vector<Sample> Samples;
-    /// The place of another piece of the same part, or its own, and the part's place.
-    std::size_t Joined;
+    /// The place of the part that it belongs to.
     std::int32_t Part = -1;
   };
 
@@ -183,7 +182,7 @@ private:
 
   void AddPiece(const ConvexSolid& solid)
   {
-    Piece piece{solid.Volume(), solid.Centre(), {}, this->Pieces_.size()};
+    Piece piece{solid.Volume(), solid.Centre(), {}};
     const Box bounds = solid.Bounds();
     std::vector<ConvexSolid> eighths = {solid};
     for (int axis = 0; axis < 3; ++axis)
@@ -228,44 +227,33 @@ private:
     return 2 * clear > Ways;
   }
 
-  std::size_t Root(std::size_t piece) const
+  /// Pieces that light passes between, also by way of others, are one part.
+  void MakeParts()
   {
-    while (this->Pieces_[piece].Joined != piece)
-    {
-      piece = this->Pieces_[piece].Joined;
-    }
-    return piece;
-  }
-
-  void JoinPieces()
-  {
+    boost::disjoint_sets_with_storage<> joined(this->Pieces_.size());
     for (std::size_t i = 0; i < this->Pieces_.size(); ++i)
     {
       for (std::size_t j = 0; j < i; ++j)
       {
-        const std::size_t a = this->Root(i);
-        const std::size_t b = this->Root(j);
-        if (a != b && this->Open(this->Pieces_[i], this->Pieces_[j]))
+        if (joined.find_set(i) != joined.find_set(j) &&
+            this->Open(this->Pieces_[i], this->Pieces_[j]))
         {
-          this->Pieces_[std::max(a, b)].Joined = std::min(a, b);
+          joined.union_set(i, j);
         }
       }
     }
-  }
-
-  void MakeParts()
-  {
+    // In the order of the first piece of each.
+    std::vector<std::int32_t> partOf(this->Pieces_.size(), -1);
+    std::int32_t parts = 0;
     for (std::size_t i = 0; i < this->Pieces_.size(); ++i)
     {
-      if (this->Root(i) == i)
-      {
-        const auto place = static_cast<std::int32_t>(this->Cut_.Parts.size());
-        for (std::size_t j = i; j < this->Pieces_.size(); ++j)
-        {
-          this->Pieces_[j].Part = this->Root(j) == i ? place : this->Pieces_[j].Part;
-        }
-        this->Cut_.Parts.push_back(this->MakePart(place));
-      }
+      std::int32_t& part = partOf[joined.find_set(i)];
+      part = part < 0 ? parts++ : part;
+      this->Pieces_[i].Part = part;
+    }
+    for (std::int32_t part = 0; part < parts; ++part)
+    {
+      this->Cut_.Parts.push_back(this->MakePart(part));
     }
   }
 
