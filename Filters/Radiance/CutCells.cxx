@@ -43,7 +43,7 @@ public:
     const Vec3 size = scene.Smoke().CellSize(cell);
     const Vec3 lower = scene.Smoke().CellCentre(cell) - this->Base_ - 0.5 * size;
     this->Box_ = {lower, lower + size};
-    this->Volume_ = size.x * size.y * size.z;
+    this->Volume_ = scene.Smoke().CellVolume(cell);
     this->Flat_ = FlatShare * std::min({size.x, size.y, size.z});
     this->LeastArea_ = LeastArea * std::pow(this->Volume_, 2.0 / 3.0);
     this->Cut_.Cell = cell;

@@ -204,7 +204,7 @@ void DirectField::FindVarying()
     {
       const auto cell = static_cast<std::int64_t>(i);
       const Vec3 size = smoke.CellSize(cell);
-      const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
+      const double depth = smoke.Extinction(cell) * LargestEdge(size) *
                            this->Scene_.ExtinctionScale(static_cast<int>(band));
       const std::size_t index = band * this->Cells_ + i;
       const int near = this->Lights_->Place(cell);

@@ -114,7 +114,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     return std::nullopt;
   }
   const Vec3 size = smoke.CellSize(cell);
-  if (root.Radius > WaysEdges * std::max({size.x, size.y, size.z}))
+  if (root.Radius > WaysEdges * LargestEdge(size))
   {
     return std::nullopt;
   }

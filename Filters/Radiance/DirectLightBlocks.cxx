@@ -116,7 +116,7 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   const double distance =
     glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
   const Vec3 size = smoke.CellSize(smoke.Cell(block, corner(0)));
-  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
   if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
       edge > 0.5 * BoxRatio * distance)
   {

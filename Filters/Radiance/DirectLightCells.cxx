@@ -143,8 +143,7 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  const bool splits =
-    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
+  const bool splits = LargestEdge(size) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
   return this->BoxFluence({light, splits && this->Clear(light, cell)}, centre, size, BoxSplits);
 }
 
@@ -153,7 +152,7 @@ Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const double distance = root.Distance(part.Centre);
-  const double edge = std::max({part.Size.x, part.Size.y, part.Size.z});
+  const double edge = LargestEdge(part.Size);
   const double steep = edge * root.Law.Sharpness();
   const double depth = smoke.Extinction(part.Cell) * this->Scene_.LargestScale() * edge;
   Spectrum sum{};
@@ -227,7 +226,7 @@ Spectrum DirectLight::BoxFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
   // A box wholly behind the plate gets nothing.
   if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
   {
@@ -344,7 +343,7 @@ double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
   const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
   return cell < 0 ? 0.0
                   : this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() *
-                      std::max({size.x, size.y, size.z});
+                      LargestEdge(size);
 }
 
 Spectrum DirectLight::GaussFluence(

@@ -27,11 +27,6 @@ constexpr double SmoothestLaw = 2.0;
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
 
-double LongestEdge(const Vec3& size)
-{
-  return std::max({size.x, size.y, size.z});
-}
-
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
@@ -59,7 +54,7 @@ NearLights::NearLights(const Scene& scene)
     [&](std::size_t i)
     {
       Cell& cell = this->Cells_[i];
-      const double edge = LongestEdge(smoke.CellSize(cell.Index));
+      const double edge = LargestEdge(smoke.CellSize(cell.Index));
       for (Light& light : cell.Lights)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
@@ -171,7 +166,7 @@ double NearLights::FindCells(std::size_t light)
       const Vec3 size = smoke.CellSize(cell);
       const double distance = root.Distance(centre);
       // Behind a plate there is none of its light.
-      if (distance >= NearEdges * LongestEdge(size) ||
+      if (distance >= NearEdges * LargestEdge(size) ||
           glm::dot(centre - root.Centre, root.Normal) <= -root.Radius - glm::length(size))
       {
         return;
