@@ -87,9 +87,9 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionL
   {
     const double area = AreaOf(half);
     leaf.Area += area;
-    leaf.Centre += area * CentreOf(half);
+    leaf.Centre += area * (half[0] + half[1] + half[2]);
   }
-  leaf.Centre /= leaf.Area;
+  leaf.Centre /= 3.0 * leaf.Area;
   for (const Vec3& corner : corners)
   {
     leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
@@ -144,9 +144,9 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
     for (std::size_t i = 2; i < cell.Vertices.size(); ++i)
     {
       const Triangle part = {cell.Vertices[0], cell.Vertices[i - 1], cell.Vertices[i]};
-      centre += glm::dot(AreaVector(part), this->Normals_.back()) * CentreOf(part);
+      centre += glm::dot(AreaVector(part), this->Normals_.back()) * (part[0] + part[1] + part[2]);
     }
-    this->Centres_.push_back(centre / this->Areas_.back());
+    this->Centres_.push_back(centre / (3.0 * this->Areas_.back()));
   }
   this->FindSigns();
   this->BuildLights(largestLight);
