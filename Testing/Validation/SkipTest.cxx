@@ -361,10 +361,7 @@ TEST(Skip, EqualBands)
     Lanes lanes{};
     for (std::size_t cell = 0; cell < field.Cells; ++cell)
     {
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        lanes[batch] += field.MultipleFluence[field.CellIndex(1, cell)][batch];
-      }
+      Add(lanes, field.MultipleFluence[field.CellIndex(1, cell)], 1.0F);
     }
     return lanes;
   };
