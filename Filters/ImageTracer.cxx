@@ -160,7 +160,7 @@ private:
       Lanes lanes;
       const double transmitted = weight * std::exp(-smoke[band].OpticalDepth);
       light[band].Surface += transmitted * this->SurfaceLuminance(ray, hit, band, lanes);
-      light[band].AddMultiple(lanes, transmitted);
+      Add(light[band].Multiple, lanes, static_cast<float>(transmitted));
       light[band].AddVeil(smoke[band], weight);
     }
   }
@@ -268,11 +268,8 @@ private:
     {
       surface[band] = light[band].Surface;
       veil[band] = light[band].Veil;
-      const double weight = this->Bands_ == 1 ? 1.0 : PhotopicWeights[band];
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        multiple[batch] += static_cast<float>(weight) * light[band].Multiple[batch];
-      }
+      Add(multiple, light[band].Multiple,
+        this->Bands_ == 1 ? 1.0F : static_cast<float>(PhotopicWeights[band]));
     }
     const double direct = smokevis::Luminance(surface, this->Bands_);
     const double added = smokevis::Luminance(veil, this->Bands_);
@@ -341,10 +338,7 @@ TracedImage TracePinhole(
       averaged.fetch_add(
         tracer.Trace(squares.X(square), squares.Y(square)), std::memory_order_relaxed);
     });
-  if (progress.ShouldStop())
-  {
-    throw Error("image", "it was stopped before it was finished");
-  }
+  progress.ThrowIfStopped("image");
   image.Averaged = averaged;
   return image;
 }

@@ -22,15 +22,7 @@ struct PixelLight
   {
     this->Veil += weight * light.Veil();
     this->OpticalDepth += weight * light.OpticalDepth;
-    this->AddMultiple(light.VeilMultiple, weight);
-  }
-
-  void AddMultiple(const Lanes& lanes, double weight)
-  {
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      this->Multiple[batch] += static_cast<float>(weight) * lanes[batch];
-    }
+    Add(this->Multiple, light.VeilMultiple, static_cast<float>(weight));
   }
 
   void Scale(double factor)

@@ -48,10 +48,7 @@ void SmallPlates::Sums::Add(const Sums& other, double weight)
   {
     this->Emitted[band] += weight * other.Emitted[band];
     this->Reflected[band] += weight * other.Reflected[band];
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      this->Multiple[band][batch] += static_cast<float>(weight) * other.Multiple[band][batch];
-    }
+    smokevis::Add(this->Multiple[band], other.Multiple[band], static_cast<float>(weight));
   }
 }
 
@@ -111,7 +108,8 @@ void SmallPlates::Add(std::size_t pixel, PixelSpectrum& light) const
       const double transmitted = std::exp(-smoke.OpticalDepth);
       light[band].Surface +=
         transmitted * (share.Light.Emitted[band] + share.Light.Reflected[band]);
-      light[band].AddMultiple(share.Light.Multiple[band], transmitted);
+      smokevis::Add(
+        light[band].Multiple, share.Light.Multiple[band], static_cast<float>(transmitted));
       light[band].AddVeil(smoke, share.Light.Area);
     }
   }
@@ -353,10 +351,7 @@ void SmallPlates::DrawCell(const Plate& plate, const std::vector<Place>& places,
         const double factor = emitter.Reflectance[band] / glm::pi<double>();
         look.Emitted[band] = relative * emitter.Luminance[band];
         look.Reflected[band] = factor * place.Illuminance[band];
-        for (int batch = 0; batch < Batches; ++batch)
-        {
-          look.Multiple[band][batch] = static_cast<float>(factor) * place.Multiple[band][batch];
-        }
+        smokevis::Add(look.Multiple[band], place.Multiple[band], static_cast<float>(factor));
       }
       this->DrawPiece(piece, look, window, pixels);
     }

@@ -2,6 +2,8 @@
 #include "SurfaceRefiner.h"
 
 #include "Errors.h"
+#include "PolygonClip.h"
+#include "Triangle.h"
 #include "Types.h"
 
 #include <vtkCellArray.h>
@@ -22,22 +24,10 @@ namespace smokevis
 namespace
 {
 
-/// Vector area of a polygon (Newell), relative to its first corner for accuracy far from the
-/// origin.
-Vec3 VectorArea(const std::vector<Vec3>& corners)
-{
-  Vec3 area(0.0);
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-  {
-    area += 0.5 * glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-  }
-  return area;
-}
-
 /// Whether a polygon is convex and, to a thousandth of its size, plane.
 bool PlaneAndConvex(const std::vector<Vec3>& corners)
 {
-  const Vec3 area = VectorArea(corners);
+  const Vec3 area = AreaVector(corners);
   const double size = glm::length(area);
   if (!(size > 0.0))
   {
@@ -216,8 +206,7 @@ private:
     {
       const std::array<vtkIdType, 3> ids = open.back();
       open.pop_back();
-      const std::array<Vec3, 3> corners = {
-        this->Point(ids[0]), this->Point(ids[1]), this->Point(ids[2])};
+      const Triangle corners = {this->Point(ids[0]), this->Point(ids[1]), this->Point(ids[2])};
       int edge = 0;
       double longest = 0.0;
       for (int i = 0; i < 3; ++i)

@@ -40,10 +40,7 @@ void Add(RayLight& sum, const RayLight& term, double weight)
 {
   sum.VeilDirect += weight * term.VeilDirect;
   sum.OpticalDepth += weight * term.OpticalDepth;
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    sum.VeilMultiple[batch] += static_cast<float>(weight) * term.VeilMultiple[batch];
-  }
+  Add(sum.VeilMultiple, term.VeilMultiple, static_cast<float>(weight));
 }
 
 } // namespace

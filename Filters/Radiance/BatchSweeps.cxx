@@ -1,6 +1,5 @@
 #include "BatchSweeps.h"
 
-#include "Errors.h"
 #include "LightField.h"
 #include "Sampler.h"
 #include "Team.h"
@@ -43,10 +42,7 @@ void BatchSweeps::Draw(int sweeps, bool thin)
               Mix(this->Key_ + this->Done_) + batch, thin, this->Progress_);
           });
       });
-    if (this->Progress_.ShouldStop())
-    {
-      throw Error("light field", "the work was stopped");
-    }
+    this->Progress_.ThrowIfStopped("light field");
     this->LinesABatch_ += thin ? this->Sweep_.ThinLines() : this->Sweep_.Lines();
     ++this->Done_;
     this->Progress_.Report(

@@ -14,6 +14,11 @@ inline double BoxSurface(const Vec3& size)
   return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
+inline double LargestEdge(const Vec3& size)
+{
+  return std::max({size.x, size.y, size.z});
+}
+
 struct Box
 {
   Vec3 Lower{0.0};

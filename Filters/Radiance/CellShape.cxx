@@ -1,5 +1,6 @@
 #include "CellShape.h"
 
+#include "ExponentialMean.h"
 #include "OpenFaces.h"
 #include "Scene.h"
 
@@ -22,7 +23,7 @@ CellShape::CellShape(const Scene& scene, const Means& means)
   {
     const Vec3 centre = smoke.CellCentre(cell);
     const Vec3 size = smoke.CellSize(cell);
-    double mean = 1.0;
+    double logarithm = 0.0;
     double offset = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -45,11 +46,10 @@ CellShape::CellShape(const Scene& scene, const Means& means)
           std::clamp(std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
         this->Slopes_[cell].Slope[axis] = static_cast<float>(slope);
         offset -= static_cast<float>(slope) * (centre[axis] - this->Lower_[axis]);
-        const double half = 0.5 * slope * size[axis];
-        mean *= std::abs(half) < 1e-3 ? 1.0 + half * half / 6.0 : std::sinh(half) / half;
+        logarithm += LogarithmOfMean(0.5 * slope * size[axis]);
       }
     }
-    this->Slopes_[cell].Offset = static_cast<float>(offset - std::log(mean));
+    this->Slopes_[cell].Offset = static_cast<float>(offset - logarithm);
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)

@@ -40,8 +40,7 @@ CellWalls::CellWalls(const Scene& scene)
 //--------------------------------------------------------------------------------------------------
 void CellWalls::Find(const Medium& smoke, const Triangle& corners)
 {
-  const Vec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
-  const Vec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+  const auto [low, high] = BoundsOf(corners);
   if (glm::any(glm::greaterThan(low, smoke.Upper())) ||
       glm::any(glm::lessThan(high, smoke.Lower())))
   {
@@ -68,7 +67,7 @@ void CellWalls::Find(const Medium& smoke, const Triangle& corners)
     this->Find(smoke, {middle, to, other});
     return;
   }
-  const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Vec3 normal = AreaVector(corners);
   smoke.ForCellsIn(low, high,
     [&](std::int64_t cell)
     {

@@ -1,9 +1,8 @@
 // The walls that lie inside cells of the smoke.
 #pragma once
 
-#include "Types.h"
+#include "Triangle.h"
 
-#include <array>
 #include <compare>
 #include <cstdint>
 #include <vector>
@@ -19,12 +18,12 @@ class Scene;
 class CellWalls
 {
 public:
-  using Triangle = std::array<Vec3, 3>;
   /// A triangle and a cell that it cuts.
   struct Meeting
   {
     std::int64_t Cell;
-    std::size_t Triangle;
+    /// Place of the triangle among the walls.
+    std::size_t Wall;
 
     auto operator<=>(const Meeting&) const = default;
   };

@@ -29,28 +29,22 @@ ClearBricks::ClearBricks(const std::array<int, 3>& size, const CellContents& con
   }
   std::vector<bool> smoky(bricks, false);
   std::int64_t number = 0;
-  for (int z = 0; z < size[2]; ++z)
-  {
-    for (int y = 0; y < size[1]; ++y)
+  ForEachPlace(size,
+    [&](const std::array<int, 3>& cell)
     {
-      const std::int64_t row = this->Brick({0, y, z});
-      for (int x = 0; x < size[0]; ++x, ++number)
+      const float extinction = contents.Extinction[number];
+      if (extinction > contents.Trace ||
+          (extinction > 0.0F && contents.Emitted && contents.Emitted[number] > 0.0F))
       {
-        const float extinction = contents.Extinction[number];
-        if (extinction > contents.Trace ||
-            (extinction > 0.0F && contents.Emitted && contents.Emitted[number] > 0.0F))
+        smoky[this->Brick(cell)] = true;
+        for (int axis = 0; axis < 3; ++axis)
         {
-          smoky[row + (x >> Shift)] = true;
-          const std::array<int, 3> cell = {x, y, z};
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            this->First_[axis] = std::min(this->First_[axis], cell[axis]);
-            this->Last_[axis] = std::max(this->Last_[axis], cell[axis]);
-          }
+          this->First_[axis] = std::min(this->First_[axis], cell[axis]);
+          this->Last_[axis] = std::max(this->Last_[axis], cell[axis]);
         }
       }
-    }
-  }
+      ++number;
+    });
   const auto edge = [this](int axis, int brick)
   {
     return std::max(0, std::min(this->Last_[axis], (brick << Shift) + Mask) -
@@ -63,16 +57,13 @@ ClearBricks::ClearBricks(const std::array<int, 3>& size, const CellContents& con
   }
   std::int64_t clear = box;
   auto brick = smoky.begin();
-  for (int z = 0; z < this->Bricks_[2]; ++z)
-  {
-    for (int y = 0; y < this->Bricks_[1]; ++y)
+  ForEachPlace(this->Bricks_,
+    [&](const std::array<int, 3>& place)
     {
-      for (int x = 0; x < this->Bricks_[0]; ++x)
-      {
-        clear -= *brick++ ? static_cast<std::int64_t>(edge(0, x)) * edge(1, y) * edge(2, z) : 0;
-      }
-    }
-  }
+      clear -= *brick++ ? static_cast<std::int64_t>(edge(0, place[0])) * edge(1, place[1]) *
+                            edge(2, place[2])
+                        : 0;
+    });
   const auto reaches = [](std::int64_t part, double share, std::int64_t all)
   { return part > 0 && static_cast<double>(part) >= share * static_cast<double>(all); };
   const std::int64_t all = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
@@ -94,37 +85,28 @@ void ClearBricks::FindReach(const std::vector<bool>& smoky)
     reach.resize(smoky.size());
     const auto place = [&](int axis, int i)
     { return (way >> axis & 1) != 0 ? i : this->Bricks_[axis] - 1 - i; };
-    const auto number = [&](int i, int j, int k)
-    {
-      return place(0, i) +
-             this->Bricks_[0] *
-               (place(1, j) + static_cast<std::int64_t>(this->Bricks_[1]) * place(2, k));
+    const auto number = [&](const std::array<int, 3>& from) {
+      return PlaceNumber(this->Bricks_, {place(0, from[0]), place(1, from[1]), place(2, from[2])});
     };
     // From where rays leave the grid back to where they enter it: a cube is alike where the brick
     // is like the seven cubes, an edge less, that start with its neighbours.
-    for (int k = 0; k < this->Bricks_[2]; ++k)
-    {
-      for (int j = 0; j < this->Bricks_[1]; ++j)
+    ForEachPlace(this->Bricks_,
+      [&](const std::array<int, 3>& from)
       {
-        for (int i = 0; i < this->Bricks_[0]; ++i)
+        const std::int64_t own = number(from);
+        const int sign = smoky[own] ? -1 : 1;
+        int least = LongestReach - 1;
+        for (int next = 1; next < 8; ++next)
         {
-          const std::int64_t own = number(i, j, k);
-          const int sign = smoky[own] ? -1 : 1;
-          int least = LongestReach - 1;
-          for (int next = 1; next < 8; ++next)
+          const std::array<int, 3> other = {
+            from[0] - (next & 1), from[1] - (next >> 1 & 1), from[2] - (next >> 2 & 1)};
+          if (*std::min_element(other.begin(), other.end()) >= 0)
           {
-            const int ni = i - (next & 1);
-            const int nj = j - (next >> 1 & 1);
-            const int nk = k - (next >> 2 & 1);
-            if (ni >= 0 && nj >= 0 && nk >= 0)
-            {
-              least = std::clamp(sign * reach[number(ni, nj, nk)], 0, least);
-            }
+            least = std::clamp(sign * reach[number(other)], 0, least);
           }
-          reach[own] = static_cast<std::int16_t>(sign * (least + 1));
         }
-      }
-    }
+        reach[own] = static_cast<std::int16_t>(sign * (least + 1));
+      });
   }
 }
 

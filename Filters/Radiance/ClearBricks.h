@@ -1,6 +1,8 @@
 // Where a grid holds no smoke, so that rays that only meet smoke may leap over it.
 #pragma once
 
+#include "Places.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -45,9 +47,7 @@ public:
   /// Number of the brick that a cell lies in.
   std::int64_t Brick(const std::array<int, 3>& cell) const
   {
-    return (cell[0] >> Shift) +
-           this->Bricks_[0] * ((cell[1] >> Shift) +
-                                static_cast<std::int64_t>(this->Bricks_[1]) * (cell[2] >> Shift));
+    return PlaceNumber(this->Bricks_, {cell[0] >> Shift, cell[1] >> Shift, cell[2] >> Shift});
   }
   /// For each brick, the edge, in bricks, of a cube that starts with it and goes on in a ray's
   /// directions: without smoke, or, negative, without clear bricks. There are neither outside the

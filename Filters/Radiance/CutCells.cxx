@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include <boost/pending/disjoint_sets.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -42,21 +43,20 @@ public:
     const Vec3 size = scene.Smoke().CellSize(cell);
     const Vec3 lower = scene.Smoke().CellCentre(cell) - this->Base_ - 0.5 * size;
     this->Box_ = {lower, lower + size};
-    this->Volume_ = size.x * size.y * size.z;
+    this->Volume_ = scene.Smoke().CellVolume(cell);
     this->Flat_ = FlatShare * std::min({size.x, size.y, size.z});
     this->LeastArea_ = LeastArea * std::pow(this->Volume_, 2.0 / 3.0);
     this->Cut_.Cell = cell;
   }
 
-  void AddWall(const std::array<Vec3, 3>& corners)
+  void AddWall(const Triangle& corners)
   {
-    const Vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const Polygon polygon = InBox(
       {corners[0] - this->Base_, corners[1] - this->Base_, corners[2] - this->Base_}, this->Box_);
-    const double area = 0.5 * glm::length(AreaVector(polygon));
-    if (area > this->LeastArea_ && glm::length(across) > 0.0)
+    const double area = glm::length(AreaVector(polygon));
+    if (area > this->LeastArea_ && AreaOf(corners) > 0.0)
     {
-      const Vec3 normal = glm::normalize(across);
+      const Vec3 normal = glm::normalize(AreaVector(corners));
       this->Walls_.push_back({{normal, glm::dot(normal, polygon[0])}, polygon, area});
     }
   }
@@ -70,7 +70,6 @@ public:
     }
     const std::int32_t root =
       this->Divide(ConvexSolid(this->Box_), std::move(this->Walls_), MostPlanes);
-    this->JoinPieces();
     this->MakeParts();
     if (this->Cut_.Parts.size() < 2)
     {
@@ -100,8 +99,7 @@ private:
     double Volume;
     Vec3 Centre;
     std::vector<Sample> Samples;
-    /// The place of another piece of the same part, or its own, and the part's place.
-    std::size_t Joined;
+    /// The place of the part that it belongs to.
     std::int32_t Part = -1;
   };
 
@@ -173,7 +171,7 @@ private:
       Wall part{wall.Where, {}, 0.0};
       KeepSide(
         wall.Corners, [&](const Vec3& point) { return sign * plane.Height(point); }, part.Corners);
-      part.Area = 0.5 * glm::length(AreaVector(part.Corners));
+      part.Area = glm::length(AreaVector(part.Corners));
       if (part.Area > this->LeastArea_)
       {
         kept.push_back(std::move(part));
@@ -184,7 +182,7 @@ private:
 
   void AddPiece(const ConvexSolid& solid)
   {
-    Piece piece{solid.Volume(), solid.Centre(), {}, this->Pieces_.size()};
+    Piece piece{solid.Volume(), solid.Centre(), {}};
     const Box bounds = solid.Bounds();
     std::vector<ConvexSolid> eighths = {solid};
     for (int axis = 0; axis < 3; ++axis)
@@ -229,44 +227,33 @@ private:
     return 2 * clear > Ways;
   }
 
-  std::size_t Root(std::size_t piece) const
+  /// Pieces that light passes between, also by way of others, are one part.
+  void MakeParts()
   {
-    while (this->Pieces_[piece].Joined != piece)
-    {
-      piece = this->Pieces_[piece].Joined;
-    }
-    return piece;
-  }
-
-  void JoinPieces()
-  {
+    boost::disjoint_sets_with_storage<> joined(this->Pieces_.size());
     for (std::size_t i = 0; i < this->Pieces_.size(); ++i)
     {
       for (std::size_t j = 0; j < i; ++j)
       {
-        const std::size_t a = this->Root(i);
-        const std::size_t b = this->Root(j);
-        if (a != b && this->Open(this->Pieces_[i], this->Pieces_[j]))
+        if (joined.find_set(i) != joined.find_set(j) &&
+            this->Open(this->Pieces_[i], this->Pieces_[j]))
         {
-          this->Pieces_[std::max(a, b)].Joined = std::min(a, b);
+          joined.union_set(i, j);
         }
       }
     }
-  }
-
-  void MakeParts()
-  {
+    // In the order of the first piece of each.
+    std::vector<std::int32_t> partOf(this->Pieces_.size(), -1);
+    std::int32_t parts = 0;
     for (std::size_t i = 0; i < this->Pieces_.size(); ++i)
     {
-      if (this->Root(i) == i)
-      {
-        const auto place = static_cast<std::int32_t>(this->Cut_.Parts.size());
-        for (std::size_t j = i; j < this->Pieces_.size(); ++j)
-        {
-          this->Pieces_[j].Part = this->Root(j) == i ? place : this->Pieces_[j].Part;
-        }
-        this->Cut_.Parts.push_back(this->MakePart(place));
-      }
+      std::int32_t& part = partOf[joined.find_set(i)];
+      part = part < 0 ? parts++ : part;
+      this->Pieces_[i].Part = part;
+    }
+    for (std::int32_t part = 0; part < parts; ++part)
+    {
+      this->Cut_.Parts.push_back(this->MakePart(part));
     }
   }
 
@@ -366,7 +353,7 @@ CellParts FindCellParts(const Scene& scene)
         const std::size_t end = i + 1 < first.size() ? first[i + 1] : found.Meetings.size();
         for (std::size_t meeting = first[i]; meeting < end; ++meeting)
         {
-          cutter.AddWall(found.Walls[found.Meetings[meeting].Triangle]);
+          cutter.AddWall(found.Walls[found.Meetings[meeting].Wall]);
         }
         cuts[i] = cutter.Run();
       }

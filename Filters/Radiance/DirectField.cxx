@@ -204,7 +204,7 @@ void DirectField::FindVarying()
     {
       const auto cell = static_cast<std::int64_t>(i);
       const Vec3 size = smoke.CellSize(cell);
-      const double depth = smoke.Extinction(cell) * std::max({size.x, size.y, size.z}) *
+      const double depth = smoke.Extinction(cell) * LargestEdge(size) *
                            this->Scene_.ExtinctionScale(static_cast<int>(band));
       const std::size_t index = band * this->Cells_ + i;
       const int near = this->Lights_->Place(cell);
@@ -241,7 +241,6 @@ double DirectField::PieceFluence(std::int64_t cell, const Vec3& origin, const Ve
 double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
   double begin, double end, double place, int band) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
   const bool thick = this->Variation_[band * this->Cells_ + cell] == Variation::Thick;
   const int index = this->Lights_->Place(cell);
   const std::vector<NearLights::Light>& nearLights = this->Lights_->Cells()[index].Lights;
@@ -267,7 +266,7 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
       before += mean;
       continue;
     }
-    const LightGroup& root = lights.Groups()[lights.Lights()[nearLights[i].Index]];
+    const LightGroup& root = this->Scene_.Lights().Root(nearLights[i].Index);
     const double share = std::clamp((place * varying - before) / mean, 0.0, 1.0);
     const auto [distance, step] = Equiangular(root, origin, direction).At(begin, end, share);
     const NearField& field = *this->Lights_->Field(nearLights[i].Index);
@@ -280,11 +279,10 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
 double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& direction,
   double begin, double end, double extinction, int band) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
   double sum = 0.0;
   for (const NearLights::Light& near : this->Lights_->Cells()[this->Lights_->Place(cell)].Lights)
   {
-    const LightGroup& root = lights.Groups()[lights.Lights()[near.Index]];
+    const LightGroup& root = this->Scene_.Lights().Root(near.Index);
     const NearField* field = this->Lights_->Field(near.Index);
     const Equiangular places(root, origin, direction);
     std::array<double, MostParts + 1> ends;

@@ -114,7 +114,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     return std::nullopt;
   }
   const Vec3 size = smoke.CellSize(cell);
-  if (root.Radius > WaysEdges * std::max({size.x, size.y, size.z}))
+  if (root.Radius > WaysEdges * LargestEdge(size))
   {
     return std::nullopt;
   }
@@ -374,8 +374,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
 
 Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   Receiver receiver{point, std::nullopt, clear};
   const Medium& smoke = this->Scene_.Smoke();
   if (smoke.EvenAt(point) && std::all_of(root.Corners.begin(), root.Corners.end(),
@@ -392,8 +391,7 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
 
 Spectrum DirectLight::Fluence(std::size_t light, const Receiver& receiver) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   Spectrum sum{};
   this->Gather(root, receiver, nullptr, LeafSplits, sum);
   return sum;
@@ -402,10 +400,8 @@ Spectrum DirectLight::Fluence(std::size_t light, const Receiver& receiver) const
 Spectrum DirectLight::Illuminance(
   std::size_t light, const Vec3& point, const Vec3& normal, bool clear) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
   Spectrum sum{};
-  this->Gather(
-    lights.Groups()[lights.Lights()[light]], {point, normal, clear}, nullptr, LeafSplits, sum);
+  this->Gather(this->Scene_.Lights().Root(light), {point, normal, clear}, nullptr, LeafSplits, sum);
   return sum;
 }
 

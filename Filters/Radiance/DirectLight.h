@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Medium.h"
+#include "Triangle.h"
 #include "Types.h"
 
 #include <optional>
@@ -59,7 +60,7 @@ public:
     std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
-    std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const;
+    std::size_t light, const Triangle& corners, const Vec3& normal) const;
 
 private:
   /// One way stands for all ways to a group of radius r at a distance d below this r/d; above it
@@ -167,8 +168,8 @@ private:
   /// @param whole whether ways are walked where they are not told; else there are none then
   std::optional<BlockWays> WaysFrom(const LightGroup& root, const Medium::Block& block, bool whole,
     const std::vector<Spectrum>& sums) const;
-  void AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal,
-    int splits, double weight, std::array<Spectrum, 2>& sum) const;
+  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int splits,
+    double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;
   const NearLights* Near_;

@@ -30,33 +30,6 @@ constexpr double WeakShare = 0.05;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 
-std::size_t CellsOf(const Medium::Block& block)
-{
-  return static_cast<std::size_t>(block.Size[0]) * block.Size[1] * block.Size[2];
-}
-
-/// Number of a cell in its block, x fastest.
-std::size_t PlaceIn(const Medium::Block& block, const std::array<int, 3>& place)
-{
-  return place[0] + static_cast<std::size_t>(block.Size[0]) *
-                      (place[1] + static_cast<std::size_t>(block.Size[1]) * place[2]);
-}
-
-template <class Visit> void ForEachCell(const Medium::Block& block, Visit&& visit)
-{
-  std::array<int, 3> place;
-  for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
-  {
-    for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
-    {
-      for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
-      {
-        visit(place);
-      }
-    }
-  }
-}
-
 /// Where a cell lies between the first and the last of its block, 0 to 1.
 Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
 {
@@ -117,7 +90,7 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
                  std::exp(-this->Scene_.ExtinctionScale(band) * depth);
   }
   double share = 0.0;
-  ForEachCell(block,
+  block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
       const std::int64_t cell = smoke.Cell(block, place);
@@ -143,17 +116,17 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   const double distance =
     glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
   const Vec3 size = smoke.CellSize(smoke.Cell(block, corner(0)));
-  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
   if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
       edge > 0.5 * BoxRatio * distance)
   {
     return std::nullopt;
   }
   BlockWays ways;
-  ways.Extinction.assign(CellsOf(block), Unknown);
+  ways.Extinction.assign(block.Cells(), Unknown);
   const auto walk = [&](const std::array<int, 3>& place)
   {
-    double& extinction = ways.Extinction[PlaceIn(block, place)];
+    double& extinction = ways.Extinction[block.Number(place)];
     if (std::isnan(extinction))
     {
       extinction = this->WayExtinction(root, smoke.Cell(block, place));
@@ -194,12 +167,12 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   {
     return std::nullopt;
   }
-  ForEachCell(block,
+  block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
       if (ways.Told)
       {
-        ways.Extinction[PlaceIn(block, place)] = Trilinear(corners, BlockShare(block, place));
+        ways.Extinction[block.Number(place)] = Trilinear(corners, BlockShare(block, place));
       }
       else
       {
@@ -217,9 +190,8 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
 DirectLight::BlockWork DirectLight::AddBlockFluence(
   std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
   const Medium& smoke = this->Scene_.Smoke();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
   const bool parts = largest > SmallestBlock;
   const std::optional<BlockWays> ways =
@@ -250,10 +222,10 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   }
   if (ways && ways->Share < NegligibleShare)
   {
-    work.Negligible = CellsOf(block);
+    work.Negligible = block.Cells();
     return work;
   }
-  ForEachCell(block,
+  block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
       const std::int64_t cell = smoke.Cell(block, place);
@@ -268,7 +240,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
         !ways  ? this->CellFluence(light, cell)
         : kept ? *kept
                : this->BoxFluence(
-                   {light, false, ways->Extinction[PlaceIn(block, place)], ways->Share < WeakShare},
+                   {light, false, ways->Extinction[block.Number(place)], ways->Share < WeakShare},
                    smoke.CellCentre(cell), smoke.CellSize(cell), 0);
       work.Told += ways && ways->Told ? 1 : 0;
       for (int band = 0; band < this->Scene_.Bands(); ++band)

@@ -1,8 +1,10 @@
 // DirectLight's part for smoke cells: means over cells and over parts of them.
 #include "DirectLight.h"
 
+#include "ExponentialMean.h"
 #include "GaussNodes.h"
 #include "NearLights.h"
+#include "Places.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -24,19 +26,10 @@ constexpr double FlatRatio = 0.2;
 constexpr double TwoPointDepth = 1.2;
 constexpr double DeepestGauss = 4.0;
 
-/// Mean place of exp(-2 x t) over t in (-1/2, 1/2), times -2: coth x - 1 / x.
-double Langevin(double x)
-{
-  return std::abs(x) < 1e-3 ? x / 3.0 : 1.0 / std::tanh(x) - 1.0 / x;
-}
-
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
 double MeanAttenuation(double x, double shift)
 {
-  const double size = std::abs(x);
-  const double logarithm =
-    size < 1e-3 ? size * size / 6.0 : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
-  return std::exp(logarithm - x * shift);
+  return std::exp(LogarithmOfMean(x) - x * shift);
 }
 
 struct GaussPlace
@@ -50,19 +43,18 @@ std::vector<GaussPlace> GaussPlaces(const Vec3& centre, const Vec3& size, int or
 {
   std::vector<GaussPlace> places;
   places.reserve(static_cast<std::size_t>(order) * order * order);
-  for (int point = 0; point < order * order * order; ++point)
-  {
-    const std::array<int, 3> index = {
-      point % order, point / order % order, point / (order * order)};
-    double weight = 1.0;
-    Vec3 share;
-    for (int axis = 0; axis < 3; ++axis)
+  ForEachPlace({order, order, order},
+    [&](const std::array<int, 3>& index)
     {
-      share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
-      weight *= order == 2 ? 0.5 : Weights3[index[axis]];
-    }
-    places.push_back({centre + (share - 0.5) * size, weight});
-  }
+      double weight = 1.0;
+      Vec3 share;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
+        weight *= order == 2 ? 0.5 : Weights3[index[axis]];
+      }
+      places.push_back({centre + (share - 0.5) * size, weight});
+    });
   return places;
 }
 
@@ -79,8 +71,7 @@ double PointLight(const LightGroup& light, const Vec3& way)
 
 bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   if (const CellPart* part = this->Scene_.Smoke().Parts().Find(cell))
   {
     return std::all_of(part->Fine.begin(), part->Fine.end(),
@@ -149,22 +140,19 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
   {
     return this->PartFluence(light, *part);
   }
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  const bool splits =
-    std::max({size.x, size.y, size.z}) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
+  const bool splits = LargestEdge(size) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
   return this->BoxFluence({light, splits && this->Clear(light, cell)}, centre, size, BoxSplits);
 }
 
 Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const double distance = root.Distance(part.Centre);
-  const double edge = std::max({part.Size.x, part.Size.y, part.Size.z});
+  const double edge = LargestEdge(part.Size);
   const double steep = edge * root.Law.Sharpness();
   const double depth = smoke.Extinction(part.Cell) * this->Scene_.LargestScale() * edge;
   Spectrum sum{};
@@ -187,15 +175,16 @@ Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
     const Box bounds = smoke.BoxOf(part.Cell);
     const Vec3 size = bounds.Upper - bounds.Lower;
     std::vector<Vec3> inside;
-    for (int i = 0; i < boxes * boxes * boxes; ++i)
-    {
-      const Vec3 place(i % boxes, i / boxes % boxes, i / (boxes * boxes));
-      const Vec3 point = bounds.Lower + (place + 0.5) / static_cast<double>(boxes) * size;
-      if (smoke.Parts().Locate(part.Cell, point) == part.Number)
+    ForEachPlace({boxes, boxes, boxes},
+      [&](const std::array<int, 3>& place)
       {
-        inside.push_back(point);
-      }
-    }
+        const Vec3 middle = Vec3(place[0], place[1], place[2]) + 0.5;
+        const Vec3 point = bounds.Lower + middle / static_cast<double>(boxes) * size;
+        if (smoke.Parts().Locate(part.Cell, point) == part.Number)
+        {
+          inside.push_back(point);
+        }
+      });
     if (inside.size() >= part.Fine.size())
     {
       const bool clear = this->Clear(light, part.Number);
@@ -233,12 +222,11 @@ Spectrum DirectLight::Fluence(const BoxLight& light, const Vec3& point) const
 Spectrum DirectLight::BoxFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = std::max({size.x, size.y, size.z}) * root.Law.Sharpness();
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
   // A box wholly behind the plate gets nothing.
   if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
   {
@@ -338,8 +326,7 @@ Spectrum DirectLight::BoxFluence(
 std::optional<double> DirectLight::ExtinctionFrom(
   const BoxLight& light, const Vec3& centre, const Vec3& place) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const Vec3& target = lights.Groups()[lights.Lights()[light.Index]].Centre;
+  const Vec3& target = this->Scene_.Lights().Root(light.Index).Centre;
   const double toCentre = glm::length(target - centre);
   const double way = glm::length(target - place);
   if (!light.Extinction || !(way > 0.0))
@@ -356,14 +343,13 @@ double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
   const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
   return cell < 0 ? 0.0
                   : this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() *
-                      std::max({size.x, size.y, size.z});
+                      LargestEdge(size);
 }
 
 Spectrum DirectLight::GaussFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const std::vector<GaussPlace> places =

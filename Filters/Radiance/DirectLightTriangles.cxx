@@ -19,24 +19,18 @@ constexpr int TriangleSplits = 4;
 } // namespace
 
 std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
-  std::size_t light, const std::array<Vec3, 3>& corners, const Vec3& normal) const
+  std::size_t light, const Triangle& corners, const Vec3& normal) const
 {
   std::array<Spectrum, 2> sum{};
   this->AddTriangle(light, corners, normal, TriangleSplits, 1.0, sum);
   return sum;
 }
 
-void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corners,
-  const Vec3& normal, int splits, double weight, std::array<Spectrum, 2>& sum) const
+void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal,
+  int splits, double weight, std::array<Spectrum, 2>& sum) const
 {
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
-  const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-  double size = 0.0;
-  for (const Vec3& corner : corners)
-  {
-    size = std::max(size, glm::length(corner - centre));
-  }
+  const LightGroup& root = this->Scene_.Lights().Root(light);
+  const Vec3 centre = CentreOf(corners);
   const double distance = root.Distance(centre);
   // What does not reach before the light gets nothing from it: so do the light's own cells, and the
   // wall that it is on.
@@ -47,7 +41,7 @@ void DirectLight::AddTriangle(std::size_t light, const std::array<Vec3, 3>& corn
   {
     return;
   }
-  size *= root.Law.Sharpness();
+  const double size = ReachOf(corners) * root.Law.Sharpness();
   const auto splitAll = [&]
   {
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),

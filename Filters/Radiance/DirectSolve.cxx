@@ -1,7 +1,6 @@
 #include "DirectSolve.h"
 
 #include "DirectLight.h"
-#include "Errors.h"
 #include "NearLights.h"
 #include "ReportedLoop.h"
 #include "Scene.h"
@@ -25,24 +24,16 @@ constexpr double NearShare = 0.2;
 constexpr double PartShare = 0.4;
 constexpr double CellShare = 0.8;
 
-struct Triangle
-{
-  std::array<Vec3, 3> Corners;
-  double Area;
-};
-
-/// Triangles of each patch.
+/// Triangles of each patch that have an area.
 std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 {
   std::vector<std::vector<Triangle>> patches(scene.Patches());
   scene.ForEachTriangle(
-    [&patches](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [&patches](std::size_t patch, const Triangle& corners)
     {
-      const double area =
-        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-      if (area > 0.0)
+      if (AreaOf(corners) > 0.0)
       {
-        patches[patch].push_back({corners, area});
+        patches[patch].push_back(corners);
       }
     });
   return patches;
@@ -64,10 +55,7 @@ void DirectSolve::ForOwn(std::size_t count, std::size_t grain, double from, doub
     this->Arena_, this->Team_.OwnCount(count), grain, this->Progress_,
     [&](double done) { this->Progress_.Report(this->Share_ * (from + (to - from) * done)); },
     [&](std::size_t i) { body(this->Team_.OwnItem(i)); });
-  if (this->Progress_.ShouldStop())
-  {
-    throw Error("light field", "the work was stopped");
-  }
+  this->Progress_.ThrowIfStopped("light field");
 }
 
 std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block) const
@@ -77,7 +65,7 @@ std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block)
   std::vector<std::pair<double, std::size_t>> strengths;
   for (std::size_t light = 0; light < lights.Lights().size(); ++light)
   {
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const LightGroup& root = lights.Root(light);
     const Vec3 way = root.Centre - place;
     const double most = *std::max_element(root.Intensity.begin(), root.Intensity.end());
     strengths.emplace_back(-most / (glm::dot(way, way) + root.Area), light);
@@ -101,10 +89,7 @@ void DirectSolve::NearCells()
     this->Arena_.execute([&] { near.Deposit(light); });
     this->Progress_.Report(
       this->Share_ * DepositShare * static_cast<double>(light + 1) / static_cast<double>(lights));
-    if (this->Progress_.ShouldStop())
-    {
-      throw Error("light field", "the work was stopped");
-    }
+    this->Progress_.ThrowIfStopped("light field");
   }
   this->ForOwn(cells.size(), 4, DepositShare, NearShare,
     [&](std::size_t cell)
@@ -180,22 +165,15 @@ void DirectSolve::Cells()
   this->Team_.Complete<float>(blocks.size(),
     [&](std::size_t index, auto&& take)
     {
-      const Medium::Block& block = blocks[index];
-      std::array<int, 3> place;
-      for (place[2] = 0; place[2] < block.Size[2]; ++place[2])
-      {
-        for (place[1] = 0; place[1] < block.Size[1]; ++place[1])
+      blocks[index].ForEachCell(
+        [&](const std::array<int, 3>& place)
         {
-          for (place[0] = 0; place[0] < block.Size[0]; ++place[0])
+          const std::int64_t cell = smoke.Cell(blocks[index], place);
+          for (int band = 0; band < this->Field_.Bands; ++band)
           {
-            for (int band = 0; band < this->Field_.Bands; ++band)
-            {
-              take(
-                this->Field_.DirectFluence[this->Field_.CellIndex(band, smoke.Cell(block, place))]);
-            }
+            take(this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)]);
           }
-        }
-      }
+        });
     });
   this->Field_.Report.push_back({"optical depths between cells and lights not walked",
     static_cast<double>(this->Team_.Sum(told.load())), "neighbouring cells' ways tell them"});
@@ -219,14 +197,13 @@ void DirectSolve::Patches()
     [&](std::size_t patch)
     {
       std::array<Spectrum, 2> sum{};
-      for (const Triangle& triangle : patches[patch])
+      for (const Triangle& corners : patches[patch])
       {
-        const Vec3 normal = glm::normalize(glm::cross(
-          triangle.Corners[1] - triangle.Corners[0], triangle.Corners[2] - triangle.Corners[0]));
-        const double share = triangle.Area / this->Scene_.PatchArea(patch);
+        const Vec3 normal = glm::normalize(AreaVector(corners));
+        const double share = AreaOf(corners) / this->Scene_.PatchArea(patch);
         for (std::size_t light = 0; light < lights; ++light)
         {
-          const auto value = direct.TriangleIlluminance(light, triangle.Corners, normal);
+          const auto value = direct.TriangleIlluminance(light, corners, normal);
           for (int side = 0; side < 2; ++side)
           {
             for (int band = 0; band < this->Field_.Bands; ++band)

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "PlatePattern.h"
 #include "PolygonClip.h"
+#include "Triangle.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
     longest = std::max(longest, glm::length(cell.Vertices[i] - cell.Vertices[(i + 1) % count]));
   }
   const Vec3 area = AreaVector(cell.Vertices);
-  if (count < 3 || !(glm::length(area) > 1e-12 * longest * longest))
+  if (count < 3 || !(glm::length(area) > 5e-13 * longest * longest))
   {
     throw Error(where, "the polygon has no area", "Remove it or give it three distinct corners");
   }
@@ -81,14 +82,14 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionL
   leaf.Corners = corners;
   leaf.Normal = normal;
   leaf.Law = law;
-  const double first =
-    0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-  const double second =
-    0.5 * glm::length(glm::cross(corners[2] - corners[0], corners[3] - corners[0]));
-  leaf.Area = first + second;
-  leaf.Centre = (first * (corners[0] + corners[1] + corners[2]) +
-                  second * (corners[0] + corners[2] + corners[3])) /
-                (3.0 * leaf.Area);
+  for (const Triangle& half :
+    {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
+  {
+    const double area = AreaOf(half);
+    leaf.Area += area;
+    leaf.Centre += area * (half[0] + half[1] + half[2]);
+  }
+  leaf.Centre /= 3.0 * leaf.Area;
   for (const Vec3& corner : corners)
   {
     leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
@@ -134,7 +135,7 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
     const EmitterCell& cell = this->Cells_[index];
     CheckCell(cell, index, bands);
     const Vec3 area = AreaVector(cell.Vertices);
-    this->Areas_.push_back(0.5 * glm::length(area));
+    this->Areas_.push_back(glm::length(area));
     this->Normals_.push_back(glm::normalize(area));
     this->Laws_.push_back(cell.Table
                             ? EmissionLaw(*cell.Table, cell.TableAxis, this->Normals_.back())
@@ -142,12 +143,10 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
     Vec3 centre(0.0);
     for (std::size_t i = 2; i < cell.Vertices.size(); ++i)
     {
-      const Vec3& a = cell.Vertices[0];
-      const Vec3& b = cell.Vertices[i - 1];
-      const Vec3& c = cell.Vertices[i];
-      centre += glm::dot(glm::cross(b - a, c - a), this->Normals_.back()) * (a + b + c);
+      const Triangle part = {cell.Vertices[0], cell.Vertices[i - 1], cell.Vertices[i]};
+      centre += glm::dot(AreaVector(part), this->Normals_.back()) * (part[0] + part[1] + part[2]);
     }
-    this->Centres_.push_back(centre / (6.0 * this->Areas_.back()));
+    this->Centres_.push_back(centre / (3.0 * this->Areas_.back()));
   }
   this->FindSigns();
   this->BuildLights(largestLight);

@@ -108,6 +108,8 @@ public:
   /// Roots, among Groups(), of the lights that shine directly.
   const std::vector<int>& Lights() const { return this->Lights_; }
   const std::vector<LightGroup>& Groups() const { return this->Groups_; }
+  /// The root of the light at a place among Lights().
+  const LightGroup& Root(std::size_t light) const { return this->Groups_[this->Lights_[light]]; }
   /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2), or pi L A with a
   /// table.
   double Flux(int band) const;

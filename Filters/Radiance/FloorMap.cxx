@@ -144,10 +144,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   ReportedLoop(
     arena, own, 1, progress, [&progress](double done) { progress.Report(done); },
     [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped); });
-  if (progress.ShouldStop())
-  {
-    throw Error("floor map", "the work was stopped");
-  }
+  progress.ThrowIfStopped("floor map");
   const auto say = [&map](const char* what, std::size_t count, const char* why) {
     map.Report.push_back({what, static_cast<double>(count), why});
   };

@@ -23,6 +23,8 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// the rounding of the single precision that Embree works in.
 constexpr double RelativeTolerance = 1e-5;
 constexpr double RoundingShare = 1e-6;
+/// Cosine of the angle between surfaces above which those that touch lie in one another.
+constexpr double SamePlane = 0.999;
 
 struct DeviceRelease
 {
@@ -285,6 +287,28 @@ struct Geometry::Implementation
     return std::abs(plate.Distance - surface.Distance) * facing <= this->Tolerance;
   }
 
+  /// Of the surfaces that a line meets within a gap, the first of the model of those that lie in
+  /// the nearest one, or in the farthest, whichever way rounding falls.
+  Hit FirstOfModel(std::vector<Hit>::const_iterator nearest, std::vector<Hit>::const_iterator end,
+    double gap, bool farthest) const
+  {
+    if (nearest == end)
+    {
+      return {};
+    }
+    const auto behind = std::find_if(
+      nearest, end, [&](const Hit& hit) { return hit.Distance > nearest->Distance + gap; });
+    Hit first = farthest ? *(behind - 1) : *nearest;
+    const Vec3 normal = this->Surfaces.Normal[first.Triangle];
+    for (auto other = nearest; other != behind; ++other)
+    {
+      const bool inside =
+        std::abs(glm::dot(normal, this->Surfaces.Normal[other->Triangle])) > SamePlane;
+      first = inside && other->Triangle < first.Triangle ? *other : first;
+    }
+    return first;
+  }
+
   /// The surface and the plate that a ray meets first; a plate farther than the surface is only
   /// looked for as deep as it can still touch it.
   void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
@@ -427,14 +451,10 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     const auto behind = [begin](const Hit& hit) { return hit.Distance >= begin; };
     nextSurface = std::find_if(nextSurface, surfaces.end(), behind);
     nextPlate = std::find_if(nextPlate, plates.end(), behind);
-    // Of surfaces that lie in one another the first of the model counts, whichever way rounding
-    // falls.
-    Hit surface = nextSurface == surfaces.end() ? Hit() : *nextSurface;
-    for (auto other = nextSurface;
-         other != surfaces.end() && other->Distance <= nextSurface->Distance + gap; ++other)
-    {
-      surface = other->Triangle < surface.Triangle ? *other : surface;
-    }
+    // Where a line cuts an edge, it comes out of another surface than it went into: taken for one,
+    // they would let it into a closed box, or out.
+    const Hit surface = self.FirstOfModel(nextSurface, surfaces.end(), gap, false);
+    const Hit last = self.FirstOfModel(nextSurface, surfaces.end(), gap, true);
     const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
     if (!surface.Found() && !plate.Found())
     {
@@ -444,12 +464,13 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     if (surface.Found() && plate.Found() && self.Touch(surface, plate, direction))
     {
       crossing.Arrive = plate.Side == 0 ? plate : surface;
-      crossing.Leave = otherSide(plate.Side == 0 ? surface : plate);
+      crossing.Leave = otherSide(plate.Side == 0 ? last : plate);
     }
     else
     {
-      crossing.Arrive = plate.Distance < surface.Distance ? plate : surface;
-      crossing.Leave = otherSide(crossing.Arrive);
+      const bool onPlate = plate.Distance < surface.Distance;
+      crossing.Arrive = onPlate ? plate : surface;
+      crossing.Leave = otherSide(onPlate ? plate : last);
     }
     begin = std::max(crossing.Arrive.Distance, crossing.Leave.Distance) + gap;
     // A line meets a plane triangle once: a second time is rounding at grazing incidence.

@@ -67,7 +67,7 @@ std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
 {
   std::vector<bool> inside(scene.Patches(), true);
   scene.ForEachTriangle(
-    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [&](std::size_t patch, const Triangle& corners)
     {
       for (const Vec3& corner : corners)
       {

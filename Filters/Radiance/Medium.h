@@ -5,6 +5,7 @@
 #include "Box.h"
 #include "CellParts.h"
 #include "ClearBricks.h"
+#include "Places.h"
 #include "Types.h"
 
 #include <string>
@@ -89,6 +90,21 @@ public:
     std::size_t Grid = 0;
     /// First cell and number of cells along each axis.
     std::array<int, 3> First{}, Size{};
+
+    std::size_t Cells() const
+    {
+      return static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2];
+    }
+    /// Of a cell within the block, x fastest.
+    std::size_t Number(const std::array<int, 3>& place) const
+    {
+      return static_cast<std::size_t>(PlaceNumber(this->Size, place));
+    }
+    /// Calls visit(place) for all its cells in the order of these numbers.
+    template <class Visit> void ForEachCell(Visit&& visit) const
+    {
+      ForEachPlace(this->Size, visit);
+    }
   };
   /// Blocks of at most `edge` cells along each axis that hold every cell once.
   std::vector<Block> Blocks(int edge) const;
@@ -102,30 +118,22 @@ public:
   /// Calls visit(cell) for the cells of all grids that reach into a box.
   template <class Visit> void ForCellsIn(const Vec3& low, const Vec3& high, Visit&& visit) const
   {
-    for (const Grid& grid : this->Grids_)
+    for (std::size_t number = 0; number < this->Grids_.size(); ++number)
     {
+      const Grid& grid = this->Grids_[number];
       if (glm::any(glm::lessThan(high, grid.Bounds.Lower)) ||
           glm::any(glm::greaterThan(low, grid.Bounds.Upper)))
       {
         continue;
       }
-      std::array<int, 3> first;
-      std::array<int, 3> last;
+      Block block{number};
       for (int axis = 0; axis < 3; ++axis)
       {
-        first[axis] = grid.Index(axis, low[axis]);
-        last[axis] = grid.Index(axis, high[axis]);
+        block.First[axis] = grid.Index(axis, low[axis]);
+        block.Size[axis] = grid.Index(axis, high[axis]) - block.First[axis] + 1;
       }
-      for (int z = first[2]; z <= last[2]; ++z)
-      {
-        for (int y = first[1]; y <= last[1]; ++y)
-        {
-          for (int x = first[0]; x <= last[0]; ++x)
-          {
-            this->Parts_.ForEachPart(grid.Cell({x, y, z}), visit);
-          }
-        }
-      }
+      block.ForEachCell([&](const std::array<int, 3>& place)
+        { this->Parts_.ForEachPart(this->Cell(block, place), visit); });
     }
   }
   /// Longest edge of any cell [m].
@@ -174,8 +182,7 @@ private:
     int Index(int axis, double coordinate) const;
     std::int64_t Cell(const std::array<int, 3>& index) const
     {
-      return this->FirstCell + index[0] +
-             this->Size[0] * (index[1] + static_cast<std::int64_t>(this->Size[1]) * index[2]);
+      return this->FirstCell + PlaceNumber(this->Size, index);
     }
   };
 

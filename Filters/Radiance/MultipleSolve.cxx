@@ -2,7 +2,6 @@
 
 #include "BatchSweeps.h"
 #include "DirectField.h"
-#include "Errors.h"
 #include "LineSweep.h"
 #include "PlateGather.h"
 #include "PowerBalance.h"
@@ -194,10 +193,7 @@ void MultipleSolve::Band(int band)
       sweep.emplace(this->Scene_, this->Field_, *this->Inside_, band, this->Options_.Tolerance,
         this->Progress_);
     });
-  if (this->Progress_.ShouldStop())
-  {
-    throw Error("light field", "the work was stopped");
-  }
+  this->Progress_.ThrowIfStopped("light field");
   const PowerBalance balance(this->Scene_, this->Field_, band, sweep->Outer(), this->Arena_);
   if (!(balance.Source() > 0.0))
   {

@@ -47,7 +47,7 @@ NearDeposit::NearDeposit(const Scene& scene, std::size_t light, std::vector<std:
   std::sort(this->Order_.begin(), this->Order_.end(),
     [&cells](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
   const EmitterSet& lights = scene.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = lights.Root(light);
   for (const std::size_t place : this->Order_)
   {
     const std::int64_t cell = cells[place];

@@ -69,7 +69,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     : Scene_(scene), Direct_(direct), Light_(light)
 {
   const EmitterSet& lights = scene.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = lights.Root(light);
   this->Axes_[2] = root.Normal;
   const Vec3 along = root.Corners[1] - root.Corners[0];
   this->Axes_[0] = glm::normalize(along - glm::dot(along, root.Normal) * root.Normal);

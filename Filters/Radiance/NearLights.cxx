@@ -27,11 +27,6 @@ constexpr double SmoothestLaw = 2.0;
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
 
-double LongestEdge(const Vec3& size)
-{
-  return std::max({size.x, size.y, size.z});
-}
-
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
@@ -49,7 +44,7 @@ NearLights::NearLights(const Scene& scene)
   {
     const double reach = this->FindCells(light);
     // Light that changes quickly with the angle would need finer lattices.
-    const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+    const LightGroup& root = lights.Root(light);
     if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
       this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, reach);
@@ -59,11 +54,11 @@ NearLights::NearLights(const Scene& scene)
     [&](std::size_t i)
     {
       Cell& cell = this->Cells_[i];
-      const double edge = LongestEdge(smoke.CellSize(cell.Index));
+      const double edge = LargestEdge(smoke.CellSize(cell.Index));
       for (Light& light : cell.Lights)
       {
         light.Clear = this->Direct_.Clear(light.Index, cell.Index);
-        const LightGroup& root = lights.Groups()[lights.Lights()[light.Index]];
+        const LightGroup& root = lights.Root(light.Index);
         const double distance = root.Distance(smoke.CellCentre(cell.Index));
         light.Close = distance < CloseEdges * edge;
         light.Touches = distance < TouchEdges * edge &&
@@ -151,8 +146,7 @@ double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
 double NearLights::FindCells(std::size_t light)
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const EmitterSet& lights = this->Scene_.Lights();
-  const LightGroup& root = lights.Groups()[lights.Lights()[light]];
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const double largest = NearEdges * smoke.LargestEdge();
   const Vec3 low = glm::min(glm::min(root.Corners[0], root.Corners[1]),
                      glm::min(root.Corners[2], root.Corners[3])) -
@@ -172,7 +166,7 @@ double NearLights::FindCells(std::size_t light)
       const Vec3 size = smoke.CellSize(cell);
       const double distance = root.Distance(centre);
       // Behind a plate there is none of its light.
-      if (distance >= NearEdges * LongestEdge(size) ||
+      if (distance >= NearEdges * LargestEdge(size) ||
           glm::dot(centre - root.Centre, root.Normal) <= -root.Radius - glm::length(size))
       {
         return;

@@ -29,10 +29,10 @@ OpenFaces::OpenFaces(const Scene& scene)
   std::vector<unsigned char> touched(smoke.Cells(), 0);
   const double gap = 4.0 * shapes.Tolerance();
   scene.ForEachTriangle(
-    [&](std::size_t, const std::array<Vec3, 3>& corners)
+    [&](std::size_t, const Triangle& corners)
     {
-      const auto& [a, b, c] = corners;
-      smoke.ForCellsIn(glm::min(a, glm::min(b, c)) - gap, glm::max(a, glm::max(b, c)) + gap,
+      const Box bounds = BoundsOf(corners);
+      smoke.ForCellsIn(bounds.Lower - gap, bounds.Upper + gap,
         [&touched](std::int64_t cell) { touched[cell] = 1; });
     });
   this->Neighbours_.assign(smoke.Cells(), {-1, -1, -1, -1, -1, -1});

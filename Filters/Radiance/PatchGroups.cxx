@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <map>
-#include <numeric>
 #include <tuple>
+
+#include <boost/pending/disjoint_sets.hpp>
 
 namespace smokevis
 {
@@ -26,7 +28,8 @@ double FewestHits(double reflectance)
   return std::max(least, aSquare * reflectance * reflectance);
 }
 
-/// Share of the scene's size that corners of neighbours may lie apart.
+/// Share of the scene's size that corners of neighbours may lie apart: patches that cut up two
+/// walls are rounded in each wall by itself.
 constexpr double SameCorner = 1e-7;
 
 /// Where a patch lies, and whom it may be put together with.
@@ -54,30 +57,6 @@ Kind KindOf(const Place& place, double hits, double reflectance)
   return {scale, cube, 2 * facing + (place.Normal[facing] > 0.0 ? 1 : 0), reflectance};
 }
 
-/// Sets of patches that hang together.
-class Sets
-{
-public:
-  explicit Sets(std::size_t count) : Parent_(count)
-  {
-    std::iota(this->Parent_.begin(), this->Parent_.end(), std::size_t{0});
-  }
-
-  std::size_t Find(std::size_t patch)
-  {
-    while (this->Parent_[patch] != patch)
-    {
-      this->Parent_[patch] = this->Parent_[this->Parent_[patch]];
-      patch = this->Parent_[patch];
-    }
-    return patch;
-  }
-  void Join(std::size_t a, std::size_t b) { this->Parent_[this->Find(a)] = this->Find(b); }
-
-private:
-  std::vector<std::size_t> Parent_;
-};
-
 } // namespace
 
 PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
@@ -90,17 +69,16 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
     return most > 0.0F && most < FewestHits(scene.PatchReflectance(patch)[band]);
   };
   scene.ForEachTriangle(
-    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [&](std::size_t patch, const Triangle& corners)
     {
       if (patch >= patches || !small(patch))
       {
         return;
       }
-      const Vec3 normal = 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const double area = glm::length(normal);
+      const double area = AreaOf(corners);
       places[patch].Area += area;
-      places[patch].Normal += normal;
-      places[patch].Centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
+      places[patch].Normal += AreaVector(corners);
+      places[patch].Centre += area * CentreOf(corners);
     });
   // Patches of one kind that share a corner.
   std::map<Kind, std::vector<std::uint32_t>> kinds;
@@ -131,35 +109,38 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
   }
   struct Corner
   {
+    std::uint32_t Kind;
     std::array<std::int64_t, 3> Place;
-    std::uint32_t Kind, Patch;
-    bool operator<(const Corner& other) const
+    std::uint32_t Patch;
+    bool Meets(const Corner& other) const
     {
-      return std::tie(this->Kind, this->Place) < std::tie(other.Kind, other.Place);
+      return this->Kind == other.Kind && this->Place == other.Place;
     }
+    auto operator<=>(const Corner&) const = default;
   };
   std::vector<Corner> all;
   const double grain = SameCorner * glm::length(scene.Upper() - scene.Lower());
   scene.ForEachTriangle(
-    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [&](std::size_t patch, const Triangle& corners)
     {
       for (const Vec3& corner : corners)
       {
         if (patch < patches && kindOf[patch] > 0)
         {
           const Vec3 place = (corner - scene.Lower()) / grain;
-          all.push_back({{std::llround(place.x), std::llround(place.y), std::llround(place.z)},
-            kindOf[patch], static_cast<std::uint32_t>(patch)});
+          all.push_back(
+            {kindOf[patch], {std::llround(place.x), std::llround(place.y), std::llround(place.z)},
+              static_cast<std::uint32_t>(patch)});
         }
       }
     });
   std::sort(all.begin(), all.end());
-  Sets sets(patches);
+  boost::disjoint_sets_with_storage<> sets(patches);
   for (std::size_t i = 1; i < all.size(); ++i)
   {
-    if (!(all[i - 1] < all[i]))
+    if (all[i].Meets(all[i - 1]))
     {
-      sets.Join(all[i - 1].Patch, all[i].Patch);
+      sets.union_set(all[i - 1].Patch, all[i].Patch);
     }
   }
   std::map<std::size_t, std::vector<std::uint32_t>> groups;
@@ -167,7 +148,7 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
   {
     if (kindOf[patch] > 0)
     {
-      groups[sets.Find(patch)].push_back(static_cast<std::uint32_t>(patch));
+      groups[sets.find_set(patch)].push_back(static_cast<std::uint32_t>(patch));
     }
   }
   for (const auto& [root, members] : groups)

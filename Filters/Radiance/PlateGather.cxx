@@ -54,10 +54,7 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
       const std::size_t own = team.OwnItem(i);
       results[own] = this->Gather(wanted[own], progress);
     });
-  if (progress.ShouldStop())
-  {
-    throw Error("light field", "the work was stopped");
-  }
+  progress.ThrowIfStopped("light field");
   team.Complete<Result>(results.size(), [&](std::size_t i, auto&& take) { take(results[i]); });
   std::size_t rays = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i)

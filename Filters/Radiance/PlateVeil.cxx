@@ -113,10 +113,7 @@ Lanes PlateVeil::At(const glm::dvec2& place) const
       const double share = u[i] * v[j];
       const RayLight& light = this->Far_[j][i];
       steady += share * light.VeilDirect;
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        veil[batch] += static_cast<float>(share) * light.VeilMultiple[batch];
-      }
+      Add(veil, light.VeilMultiple, static_cast<float>(share));
     }
   }
   for (float& value : veil.Value)

@@ -1,5 +1,7 @@
 #include "PolygonClip.h"
 
+#include "Triangle.h"
+
 #include <cmath>
 #include <utility>
 
@@ -40,7 +42,7 @@ Vec3 AreaVector(const std::vector<Vec3>& polygon)
   Vec3 sum(0.0);
   for (std::size_t i = 2; i < polygon.size(); ++i)
   {
-    sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    sum += AreaVector(Triangle{polygon[0], polygon[i - 1], polygon[i]});
   }
   return sum;
 }

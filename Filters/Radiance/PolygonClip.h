@@ -59,7 +59,7 @@ inline void KeepStrip(
 std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box);
 
 double AreaOf(const FlatPolygon& polygon);
-/// Newell's normal of a plane polygon in space; its length is twice the area.
+/// Newell's normal of a plane polygon in space; its length is the area.
 Vec3 AreaVector(const std::vector<Vec3>& polygon);
 /// Mean of the corners.
 glm::dvec2 MiddleOf(const FlatPolygon& polygon);

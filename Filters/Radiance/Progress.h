@@ -1,6 +1,8 @@
 // How long work reports how far it is and learns that it should stop.
 #pragma once
 
+#include "Errors.h"
+
 #include <atomic>
 
 namespace smokevis
@@ -17,6 +19,14 @@ public:
 
   /// True once the work is to be given up.
   bool ShouldStop() const { return this->Stop_.load(std::memory_order_relaxed); }
+  /// @param work what is given up, as the message says
+  void ThrowIfStopped(const char* work) const
+  {
+    if (this->ShouldStop())
+    {
+      throw Error(work, "the work was stopped");
+    }
+  }
   /// Asks the work to stop.
   void Stop() { this->Stop_.store(true, std::memory_order_relaxed); }
 

@@ -86,19 +86,15 @@ double ScatterBound::ReflectedOnce() const
   constexpr double pi = glm::pi<double>();
   double highest = 0.0;
   this->Scene_.ForEachTriangle(
-    [&](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [&](std::size_t patch, const Triangle& corners)
     {
       const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
       if (reflectance == 0.0)
       {
         return;
       }
-      const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-      double reach = 0.0;
-      for (const Vec3& corner : corners)
-      {
-        reach = std::max(reach, glm::length(corner - centre));
-      }
+      const Vec3 centre = CentreOf(corners);
+      const double reach = ReachOf(corners);
       double illuminance = 0.0;
       for (const int light : this->Scene_.Lights().Lights())
       {

@@ -117,10 +117,9 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   this->Lower_ = Vec3(infinity);
   this->Upper_ = Vec3(-infinity);
   this->ForEachTriangle(
-    [this](std::size_t patch, const std::array<Vec3, 3>& corners)
+    [this](std::size_t patch, const Triangle& corners)
     {
-      this->PatchArea_[patch] +=
-        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      this->PatchArea_[patch] += AreaOf(corners);
       for (const Vec3& corner : corners)
       {
         this->Lower_ = glm::min(this->Lower_, corner);

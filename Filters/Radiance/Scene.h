@@ -4,6 +4,7 @@
 #include "Emitters.h"
 #include "Geometry.h"
 #include "Medium.h"
+#include "Triangle.h"
 #include "Types.h"
 
 #include <algorithm>
@@ -136,8 +137,8 @@ template <class Visit> void Scene::ForEachTriangle(Visit&& visit) const
     for (std::size_t i = 0; i < mesh->Triangles.size(); ++i)
     {
       const auto& triangle = mesh->Triangles[i];
-      visit(first + mesh->TriangleCell[i], std::array<Vec3, 3>{mesh->Points[triangle[0]],
-                                             mesh->Points[triangle[1]], mesh->Points[triangle[2]]});
+      visit(first + mesh->TriangleCell[i],
+        Triangle{mesh->Points[triangle[0]], mesh->Points[triangle[1]], mesh->Points[triangle[2]]});
     }
     first += mesh->CellReflectance.size();
   }

@@ -1,5 +1,6 @@
 #include "ShapeNoise.h"
 
+#include "ExponentialMean.h"
 #include "OpenFaces.h"
 #include "Scene.h"
 
@@ -9,18 +10,6 @@
 
 namespace smokevis
 {
-
-namespace
-{
-
-/// Langevin's function coth h - 1 / h, the derivative by h of log(sinh(h) / h) by which a slope
-/// raises the mean; within 3 % for the steepest slope that a shape has (Pade approximant).
-double MeanSlope(double h)
-{
-  return h * (15.0 + h * h) / (45.0 + 6.0 * h * h);
-}
-
-} // namespace
 
 ShapeNoise::ShapeNoise(
   const Scene& scene, const Lanes* lanes, const std::vector<float>& means, const CellShape& shape)
@@ -54,7 +43,7 @@ void ShapeNoise::Add(std::int64_t cell, const Vec3& point, double weight, Lanes&
     {
       // The mean over the cell stays what it is, whatever the slope.
       const double half = 0.5 * size[axis] * this->Shape_->LogarithmSlope(cell, axis);
-      const double share = weight * means[cell] * (from[axis] - 0.5 * MeanSlope(half)) / apart;
+      const double share = weight * means[cell] * (from[axis] - 0.5 * Langevin(half)) / apart;
       smokevis::Add(sum, this->Lanes_[ends[1]], static_cast<float>(share / means[ends[1]]));
       smokevis::Add(sum, this->Lanes_[ends[0]], static_cast<float>(-share / means[ends[0]]));
     }

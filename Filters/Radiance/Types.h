@@ -41,12 +41,17 @@ inline void Add(Lanes& sum, const Lanes& term, float weight)
   }
 }
 
+/// The same in double precision, in which many can be summed.
+using DoubleLanes = std::array<double, Batches>;
+
 /// Mean of the batches.
 double Mean(const Lanes& lanes);
+double Mean(const DoubleLanes& lanes);
 /// Standard error of that mean, from the spread of the batches. So few know their spread roughly,
 /// and two standard errors of their own would hold 93.6 % (Student's t with 15 degrees of freedom);
 /// times this, two hold 95.45 %, as those of a normal law do (JCGM 100:2008, annex G.3).
 double StandardError(const Lanes& lanes);
+double StandardError(const DoubleLanes& lanes);
 inline constexpr double FewBatches = 1.0906;
 
 /// Photopic weights of three bands, which turn band luminances into one luminance. The values are

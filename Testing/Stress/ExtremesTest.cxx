@@ -5,6 +5,7 @@
 #include "TestReport.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -53,14 +54,23 @@ TEST(Extremes, DepthAlbedoReflectance)
       {
         const std::string name = NameOf(depth, albedo, reflectance);
         SCOPED_TRACE(name);
-        const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03);
-        stress::ExpectSaneField(solved);
-        stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
-        const Estimate smoke = solved.AbsorbedInSmoke();
-        const Estimate surfaces = solved.AbsorbedOnSurfaces();
-        // In cells of a mean free path the light straight from the sign alone lacks 0.09 %.
-        report::Relative(name, EmittedPower(solved), smoke.Mean + surfaces.Mean,
-          depth == 1.0 ? 0.0015 : 0.001, std::hypot(smoke.StandardError, surfaces.StandardError));
+        // Where light scatters on and on, noise is of the size of the limit: a mean tells more.
+        const int seeds = depth == 1.0 && albedo > 0.0 && reflectance > 0.0 ? 4 : 1;
+        Estimate absorbed;
+        double emitted = 0.0;
+        for (int seed = 1; seed <= seeds; ++seed)
+        {
+          const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03, seed);
+          stress::ExpectSaneField(solved);
+          stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
+          const Estimate smoke = solved.AbsorbedInSmoke();
+          const Estimate surfaces = solved.AbsorbedOnSurfaces();
+          absorbed.Mean += (smoke.Mean + surfaces.Mean) / seeds;
+          absorbed.StandardError = std::hypot(absorbed.StandardError,
+            std::hypot(smoke.StandardError, surfaces.StandardError) / seeds);
+          emitted = EmittedPower(solved);
+        }
+        report::Relative(name, emitted, absorbed.Mean, 0.001, absorbed.StandardError);
       }
     }
   }
@@ -178,12 +188,39 @@ TEST(Extremes, HardlyAnyLightIsLost)
   }
 }
 
+/// What a closed white box around a faint lamp takes up of its light [lm].
+Estimate TakenUpByBox(const Solved& solved, std::size_t first)
+{
+  const Scene& made = *solved.TheScene;
+  const auto absorbed = [&](std::size_t patch, int side)
+  {
+    const Estimate illuminance = solved.Illuminance({patch}, side);
+    const double weight = (1.0 - made.PatchReflectance(patch)[0]) * made.ExposedArea(patch, side);
+    return Estimate{weight * illuminance.Mean, weight * illuminance.StandardError};
+  };
+  // The insides of the box see each other: their errors go together. Both sides of the lamp.
+  Estimate sum;
+  const auto add = [&](const Estimate& own) {
+    sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
+  };
+  for (std::size_t patch = first; patch < made.SurfacePatches(); ++patch)
+  {
+    add(absorbed(patch, 1));
+  }
+  for (const int side : {0, 1})
+  {
+    add(absorbed(made.Patches() - 1, side));
+  }
+  return sum;
+}
+
 // A closed white box around a faint lamp, in a room that a bright one lights: light in the box goes
 // to and fro a thousand times, and is next to nothing of all there is. What the lamp gives is what
 // the box takes up in the end, and what stands outside does not change.
 TEST(Extremes, WhiteBoxAroundLamp)
 {
   report::Head("Power that closed white boxes take up of the lamps in them [lm]");
+  constexpr int Seeds = 4;
   for (const double reflectance : {0.99, 0.999})
   {
     const std::string name = "box that loses " + std::to_string(1.0 - reflectance);
@@ -193,44 +230,34 @@ TEST(Extremes, WhiteBoxAroundLamp)
     scenes::AddBlock(scene.Surfaces, {0.4, 0.3, 0.3}, {0.8, 0.7, 0.7}, 0.4, reflectance);
     scene.Emitters.push_back(
       scenes::Plate({0.6, 0.5, 0.65}, {0, 0, -1}, {1, 0, 0}, 0.05, 0.05, 0.1, reflectance));
-    const Solved solved(scene, 0.03);
-    const Scene& made = *solved.TheScene;
-    const auto absorbed = [&](std::size_t patch, int side)
+    double given = 0.0;
+    Estimate mean;
+    for (int seed = 1; seed <= Seeds; ++seed)
     {
-      const Estimate illuminance = solved.Illuminance({patch}, side);
-      const double weight = (1.0 - made.PatchReflectance(patch)[0]) * made.ExposedArea(patch, side);
-      return Estimate{weight * illuminance.Mean, weight * illuminance.StandardError};
-    };
-    // The insides of the box see each other: their errors go together. Both sides of the lamp.
-    Estimate sum;
-    for (std::size_t patch = first; patch < made.SurfacePatches(); ++patch)
-    {
-      const Estimate own = absorbed(patch, 1);
-      sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
-    }
-    for (const int side : {0, 1})
-    {
-      const Estimate own = absorbed(made.Patches() - 1, side);
-      sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
-    }
-    const double given = made.Lights().CellFlux(made.Lights().Cells().size() - 1, 0);
-    report::Relative(name, given, sum.Mean, 0.03, sum.StandardError);
-    EXPECT_LT(sum.StandardError, 0.1 * given);
-    const auto sweeps = [](const Solved& field)
-    {
-      const auto found = std::find_if(field.Field->Report.begin(), field.Field->Report.end(),
+      const Solved solved(scene, 0.03, seed);
+      const Estimate taken = TakenUpByBox(solved, first);
+      mean = {mean.Mean + taken.Mean / Seeds,
+        std::hypot(mean.StandardError, taken.StandardError / Seeds)};
+      const EmitterSet& lights = solved.TheScene->Lights();
+      given = lights.CellFlux(lights.Cells().size() - 1, 0);
+      EXPECT_LT(taken.StandardError, 0.05 * given) << "seed " << seed;
+      const auto found = std::find_if(solved.Field->Report.begin(), solved.Field->Report.end(),
         [](const WorkItem& item) { return item.What.find("counted") != std::string::npos; });
-      return found->Count;
-    };
-    EXPECT_LT(sweeps(solved), 200.0);
+      EXPECT_LT(found->Count, 200.0) << "seed " << seed;
+    }
+    // The mean over some seeds shows a tenth of the tolerance.
+    report::Relative(name, given, mean.Mean, 0.003, mean.StandardError);
+    EXPECT_LT(mean.StandardError, 0.015 * given);
   }
 }
 
 // White walls in triangles far finer than lines meet one by one are as bright as in coarse patches:
-// what a line brings to one of them once in many sweeps must not come back larger.
+// what a line brings to one of them once in many sweeps must not come back larger. Both are held
+// against the path tracer, which knows no patches: 6 million paths from the 2 x 4 x 4 cells at
+// either end, 431.84 +- 0.16 lx and 63.09 +- 0.04 lx.
 TEST(Extremes, FinelyTriangulatedWhiteWalls)
 {
-  const auto solve = [](double patch)
+  const auto solve = [](double patch, double tolerance, int seed)
   {
     SceneDescription scene;
     scene.Albedo = 0.5;
@@ -239,24 +266,42 @@ TEST(Extremes, FinelyTriangulatedWhiteWalls)
     scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, patch, 0.9);
     scene.Emitters = {
       scenes::Plate({0.5, 0.5, 0.99}, {0, 0, -1}, {1, 0, 0}, 0.2, 0.2, 1000.0, 0.9)};
-    return Solved(scene, patch < 0.1 ? 0.1 : 0.01);
+    return Solved(scene, tolerance, seed);
   };
-  const Solved coarse = solve(0.25);
-  const Solved fine = solve(0.02);
-  report::Head("Mean fluence at both ends of a white corridor, coarse and fine patches [lx]");
-  for (const std::int64_t column : {std::int64_t{0}, std::int64_t{14}})
+  struct Case
   {
-    std::vector<std::int64_t> cells;
-    for (std::int64_t i = 0; i < 32; ++i)
+    const char* Name;
+    double Patch, Tolerance, Limit;
+  };
+  // Patches of a quarter of the corridor's width hold the steps of the light by 1.1 % too flat: a
+  // hundredth too little near the lamp, a hundredth too much at the far end. What fine ones lack is
+  // what has yet to settle, a twentieth of the tolerance.
+  for (const Case& one : {Case{"coarse", 0.25, 0.02, 0.012}, Case{"fine", 0.02, 0.1, 0.005}})
+  {
+    report::Head(std::string("Mean fluence in a white corridor, ") + one.Name + " patches [lx]");
+    constexpr int Seeds = 2;
+    std::array<Estimate, 2> ends;
+    for (int seed = 1; seed <= Seeds; ++seed)
     {
-      cells.push_back(column + i % 2 + 16 * (i / 2));
+      const Solved solved = solve(one.Patch, one.Tolerance, seed);
+      for (std::size_t end = 0; end < ends.size(); ++end)
+      {
+        std::vector<std::int64_t> cells;
+        for (std::int64_t i = 0; i < 32; ++i)
+        {
+          cells.push_back((end == 0 ? 0 : 14) + i % 2 + 16 * (i / 2));
+        }
+        const Estimate value = solved.Fluence(cells);
+        ends[end] = {ends[end].Mean + value.Mean / Seeds,
+          std::hypot(ends[end].StandardError, value.StandardError / Seeds)};
+      }
     }
-    const Estimate expected = coarse.Fluence(cells);
-    const Estimate value = fine.Fluence(cells);
-    EXPECT_LT(value.StandardError, 0.1 * expected.Mean);
-    // Patches of a quarter of the corridor's width are good to some percent.
-    report::Relative("column " + std::to_string(column), expected.Mean, value.Mean, 0.05,
-      std::hypot(expected.StandardError, value.StandardError));
+    report::Relative(
+      "near the lamp", 431.84, ends[0].Mean, one.Limit, std::hypot(0.16, ends[0].StandardError));
+    report::Relative(
+      "far end", 63.09, ends[1].Mean, one.Limit, std::hypot(0.04, ends[1].StandardError));
+    EXPECT_LT(ends[0].StandardError, 0.1 * one.Tolerance * ends[0].Mean);
+    EXPECT_LT(ends[1].StandardError, 0.5 * one.Tolerance * ends[1].Mean);
   }
 }
 

@@ -13,7 +13,7 @@ namespace
 using namespace smokevis;
 
 /// Eight cells with edges of 1 m around the origin, and triangles among them.
-Scene CutBy(const std::vector<std::array<Vec3, 3>>& walls)
+Scene CutBy(const std::vector<Triangle>& walls)
 {
   SceneDescription scene;
   SmokeGrid grid;
@@ -37,7 +37,7 @@ Scene CutBy(const std::vector<std::array<Vec3, 3>>& walls)
 }
 
 /// A wide triangle in the plane through a point with a normal.
-std::array<Vec3, 3> Wide(const Vec3& point, const Vec3& normal)
+Triangle Wide(const Vec3& point, const Vec3& normal)
 {
   const Vec3 u = glm::normalize(glm::cross(normal, Vec3(0.3, 0.5, 0.7)));
   const Vec3 v = glm::normalize(glm::cross(normal, u));

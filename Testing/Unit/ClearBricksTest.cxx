@@ -1,6 +1,7 @@
 // Rays that leap over clear air meet the same smoke, to the bit, as those that step through it.
 #include "CellParts.h"
 #include "Medium.h"
+#include "Places.h"
 #include "Sampler.h"
 
 #include <cmath>
@@ -30,16 +31,8 @@ SmokeGrid Grid(
       grid.Nodes[axis].push_back(lower[axis] + place * (upper[axis] - lower[axis]));
     }
   }
-  for (int z = 0; z < cells[2]; ++z)
-  {
-    for (int y = 0; y < cells[1]; ++y)
-    {
-      for (int x = 0; x < cells[0]; ++x)
-      {
-        grid.Extinction.push_back(static_cast<float>(value(x, y, z)));
-      }
-    }
-  }
+  ForEachPlace(cells, [&](const std::array<int, 3>& place)
+    { grid.Extinction.push_back(static_cast<float>(value(place[0], place[1], place[2]))); });
   return grid;
 }
 

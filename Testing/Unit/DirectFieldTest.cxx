@@ -230,16 +230,14 @@ TEST(Blocks, HoldEveryCellOnce)
   std::vector<int> met(medium.Cells(), 0);
   for (const Medium::Block& block : medium.Blocks(8))
   {
-    for (int z = 0; z < block.Size[2]; ++z)
-    {
-      for (int y = 0; y < block.Size[1]; ++y)
+    std::size_t number = 0;
+    block.ForEachCell(
+      [&](const std::array<int, 3>& place)
       {
-        for (int x = 0; x < block.Size[0]; ++x)
-        {
-          ++met[medium.Cell(block, {x, y, z})];
-        }
-      }
-    }
+        ++met[medium.Cell(block, place)];
+        EXPECT_EQ(block.Number(place), number++);
+      });
+    EXPECT_EQ(block.Cells(), number);
   }
   EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
 }

@@ -41,11 +41,10 @@ SceneDescription Room(std::vector<EmitterCell> emitters)
   return scene;
 }
 
-std::array<Spectrum, 2> OnTriangle(
-  const SceneDescription& description, const std::array<Vec3, 3>& corners)
+std::array<Spectrum, 2> OnTriangle(const SceneDescription& description, const Triangle& corners)
 {
   const Scene scene(description);
-  const Vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const Vec3 normal = glm::normalize(AreaVector(corners));
   return DirectLight(scene).TriangleIlluminance(0, corners, normal);
 }
 
@@ -53,8 +52,8 @@ TEST(DirectLight, NothingLiesBeforeItsOwnPlane)
 {
   const SceneDescription scene = Room({Square({0, 0, 2}, 1.0, 0), Square({1, 0, 2}, 1.0, 0)});
   // The sign itself, the wall that it is on, one that begins in its plane, and one behind it.
-  for (const std::array<Vec3, 3>& corners :
-    {std::array<Vec3, 3>{Vec3(-0.5, -0.5, 2), Vec3(0.5, -0.5, 2), Vec3(0.5, 0.5, 2)},
+  for (const Triangle& corners :
+    {Triangle{Vec3(-0.5, -0.5, 2), Vec3(0.5, -0.5, 2), Vec3(0.5, 0.5, 2)},
       {Vec3(-3, -3, 2), Vec3(3, -3, 2), Vec3(0, 3, 2)},
       {Vec3(3, -3, 2), Vec3(3, 3, 2), Vec3(3, 0, 0)},
       {Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1)}})
@@ -77,7 +76,7 @@ TEST(DirectLight, WhatStandsBeforePartOfASignGetsItsLight)
   const double x = 0.5 / Gap;
   const double share = x / std::sqrt(1.0 + x * x);
   const double expected = 4.0 * 100.0 * share * std::atan(share);
-  const std::array<Vec3, 3> patch = {
+  const Triangle patch = {
     Vec3(-0.005, -0.005, 2 + Gap), Vec3(0.01, -0.005, 2 + Gap), Vec3(-0.005, 0.01, 2 + Gap)};
   const auto found = OnTriangle(scene, patch);
   EXPECT_EQ(found[0][0], 0.0);

@@ -49,8 +49,7 @@ SceneDescription Problem1(double albedo)
 /// Fluence at a point: the luminance from all directions, on a Fibonacci lattice.
 Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
 {
-  Lanes sum;
-  std::array<double, Batches> total{};
+  DoubleLanes total{};
   const double golden = Pi * (3.0 - std::sqrt(5.0));
   for (int i = 0; i < directions; ++i)
   {
@@ -60,14 +59,10 @@ Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
     const Lanes light = solved.TheView->TraceVeil(point, direction, 0.0, 400.0, 0).TotalLanes();
     for (int batch = 0; batch < Batches; ++batch)
     {
-      total[static_cast<std::size_t>(batch)] += 4.0 * Pi * light[batch] / directions;
+      total[batch] += 4.0 * Pi * light[batch] / directions;
     }
   }
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    sum[batch] = static_cast<float>(total[static_cast<std::size_t>(batch)]);
-  }
-  return {Mean(sum), StandardError(sum)};
+  return {Mean(total), StandardError(total)};
 }
 
 // Pure absorber: only the view's line integrals count, which are exact; the lattice of 400000

@@ -1,4 +1,5 @@
 // A point source in uniform smoke: airlight of single scattering, and the fluence with all orders.
+#include "PolygonClip.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -22,8 +23,7 @@ std::vector<EmitterCell> PointSource(const Vec3& centre, double radius, double i
   double area = 0.0;
   for (const EmitterCell& cell : cells)
   {
-    area += 0.5 * glm::length(glm::cross(
-                    cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]));
+    area += glm::length(AreaVector(cell.Vertices));
   }
   for (EmitterCell& cell : cells)
   {
@@ -38,9 +38,7 @@ double Intensity(const std::vector<EmitterCell>& source, const Vec3& direction)
   double sum = 0.0;
   for (const EmitterCell& cell : source)
   {
-    const Vec3 area =
-      0.5 * glm::cross(cell.Vertices[1] - cell.Vertices[0], cell.Vertices[2] - cell.Vertices[0]);
-    sum += cell.Luminance[0] * std::max(0.0, glm::dot(area, direction));
+    sum += cell.Luminance[0] * std::max(0.0, glm::dot(AreaVector(cell.Vertices), direction));
   }
   return sum;
 }

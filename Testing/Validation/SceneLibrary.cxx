@@ -1,6 +1,8 @@
 #include "SceneLibrary.h"
 
+#include "Places.h"
 #include "ReferenceIntegrator.h"
+#include "Triangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,22 +149,17 @@ std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node)
   parts.first.Nodes[axis].assign(grid.Nodes[axis].begin(), cut + 1);
   parts.second.Nodes[axis].assign(cut, grid.Nodes[axis].end());
   std::size_t cell = 0;
-  std::array<int, 3> index{};
-  for (index[2] = 0; index[2] < size[2]; ++index[2])
-  {
-    for (index[1] = 0; index[1] < size[1]; ++index[1])
+  ForEachPlace(size,
+    [&](const std::array<int, 3>& place)
     {
-      for (index[0] = 0; index[0] < size[0]; ++index[0], ++cell)
+      SmokeGrid& part = place[axis] < node ? parts.first : parts.second;
+      part.Extinction.push_back(grid.Extinction[cell]);
+      if (!grid.EmittedLuminance.empty())
       {
-        SmokeGrid& part = index[axis] < node ? parts.first : parts.second;
-        part.Extinction.push_back(grid.Extinction[cell]);
-        if (!grid.EmittedLuminance.empty())
-        {
-          part.EmittedLuminance.push_back(grid.EmittedLuminance[cell]);
-        }
+        part.EmittedLuminance.push_back(grid.EmittedLuminance[cell]);
       }
-    }
-  }
+      ++cell;
+    });
   return parts;
 }
 
@@ -249,7 +246,6 @@ std::vector<EmitterCell> EmittingSphere(
       points.emplace_back(t, 0.0, s);
     }
   }
-  using Triangle = std::array<Vec3, 3>;
   std::vector<Triangle> triangles;
   // The faces of an icosahedron with edge 2 are the triples of corners at that distance.
   const auto joined = [&](std::size_t a, std::size_t b)
@@ -285,13 +281,13 @@ std::vector<EmitterCell> EmittingSphere(
   for (const Triangle& t : triangles)
   {
     volume += std::abs(glm::dot(t[0], glm::cross(t[1], t[2]))) / 6.0;
-    surface += 0.5 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
+    surface += AreaOf(t);
   }
   const double scale = radius * surface / (3.0 * volume);
   std::vector<EmitterCell> cells;
   for (Triangle& t : triangles)
   {
-    const bool outward = glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), t[0]) > 0.0;
+    const bool outward = glm::dot(AreaVector(t), t[0]) > 0.0;
     if (outward == inwards)
     {
       std::swap(t[1], t[2]);

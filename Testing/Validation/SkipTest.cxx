@@ -35,12 +35,12 @@ struct Outcome
   }
 };
 
-Outcome Solve(const SceneDescription& description, bool skips)
+Outcome Solve(const SceneDescription& description, bool skips, double tolerance = 0.1)
 {
   Outcome run;
   run.TheScene = std::make_shared<const Scene>(description);
   LightFieldOptions options;
-  options.Tolerance = 0.1;
+  options.Tolerance = tolerance;
   options.Skips = skips;
   Progress progress;
   const auto start = std::chrono::steady_clock::now();
@@ -351,8 +351,8 @@ TEST(Skip, EqualBands)
   {
     cell.Luminance = {1000.0, 1000.0, 500.0};
   }
-  const Outcome skipping = Solve(scene, true);
-  const Outcome all = Solve(scene, false);
+  const Outcome skipping = Solve(scene, true, 0.01);
+  const Outcome all = Solve(scene, false, 0.01);
   EXPECT_EQ(skipping.Count("band 1 skipped"), 1.0);
   EXPECT_EQ(all.Count("band 1 skipped"), 0.0);
   // Each has noise of its own.
@@ -361,10 +361,7 @@ TEST(Skip, EqualBands)
     Lanes lanes{};
     for (std::size_t cell = 0; cell < field.Cells; ++cell)
     {
-      for (int batch = 0; batch < Batches; ++batch)
-      {
-        lanes[batch] += field.MultipleFluence[field.CellIndex(1, cell)][batch];
-      }
+      Add(lanes, field.MultipleFluence[field.CellIndex(1, cell)], 1.0F);
     }
     return lanes;
   };

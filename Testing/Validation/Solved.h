@@ -131,22 +131,11 @@ private:
 
     Estimate Result(double direct, double count) const
     {
-      double mean = 0.0;
-      for (const double value : this->Sum_)
-      {
-        mean += value / Batches;
-      }
-      double square = 0.0;
-      for (const double value : this->Sum_)
-      {
-        square += (value - mean) * (value - mean);
-      }
-      return {(direct + mean) / count,
-        FewBatches * std::sqrt(square / (Batches * (Batches - 1.0))) / count};
+      return {(direct + Mean(this->Sum_)) / count, StandardError(this->Sum_) / count};
     }
 
   private:
-    std::array<double, Batches> Sum_{};
+    DoubleLanes Sum_{};
   };
 };
 
