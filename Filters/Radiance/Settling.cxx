@@ -91,7 +91,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   verdict.Drifts = drift.LowerBound > 0.0;
   verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
   verdict.Tolerable = drift.UpperBound < this->Limit_ * shown ||
-                      (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ &&
+                      (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ * shown &&
                         drift.UpperBound < HiddenShare * this->Limit_);
   const double error = std::max(
     this->Probes_.RelativeError(this->Sweeps_.States()), LeastErrorShare * this->Tolerance_);
