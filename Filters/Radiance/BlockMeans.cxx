@@ -81,7 +81,7 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
     {
       tbb::parallel_for(std::size_t{0}, shares.size(), share);
       this->Add(batches, &BatchState::FluenceSum,
-        field.DirectFluence.data() + field.CellIndex(band, 0), shares);
+        field.DirectFluence.data() + field.CellIndex(band, 0), 4.0, shares);
     });
   shares.resize(2 * field.Patches);
   const std::size_t patchBlocks = std::min(MostPatchBlocks, shares.size());
@@ -96,7 +96,7 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
     [&]
     {
       this->Add(batches, &BatchState::IlluminanceSum,
-        field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), shares);
+        field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0), 1.0, shares);
     });
   double all = 0.0;
   for (const Block& block : this->Blocks_)
@@ -114,7 +114,7 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
 }
 
 void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
-  const float* direct, const std::vector<Share>& shares)
+  const float* direct, double unit, const std::vector<Share>& shares)
 {
   std::size_t count = 0;
   for (const Share& share : shares)
@@ -126,7 +126,7 @@ void BlockMeans::Add(const std::vector<BatchState>& batches, std::vector<float> 
     first + count, Block{0.0, 0.0, std::vector<double>(batches.size(), 0.0), false});
   for (const Share& share : shares)
   {
-    this->Blocks_[first + share.Block].Size += share.Weight;
+    this->Blocks_[first + share.Block].Size += unit * share.Weight;
   }
   const auto sums = [&](const float* light)
   {

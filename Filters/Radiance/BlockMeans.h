@@ -53,7 +53,7 @@ public:
 private:
   struct Block
   {
-    /// What light of one unit everywhere would add up to.
+    /// What light would add up to that is 1 lx on each surface, from all sides, everywhere.
     double Size = 0.0;
     /// Of direct light, and a floor.
     double Direct = 0.0;
@@ -68,8 +68,9 @@ private:
     std::size_t Block = 0;
     double Weight = 0.0;
   };
+  /// @param unit of the values where 1 lx comes to each surface from all sides
   void Add(const std::vector<BatchState>& batches, std::vector<float> BatchState::*values,
-    const float* direct, const std::vector<Share>& shares);
+    const float* direct, double unit, const std::vector<Share>& shares);
 
   /// Of the fluence in scattering cells, then of the illuminance of reflecting patches.
   std::vector<Block> Blocks_;

@@ -11,6 +11,15 @@
 namespace smokevis
 {
 
+namespace
+{
+
+/// Ratio of the means of cells so many places apart above which their slope is cut off.
+const std::array<double, 3> SteepestRatio = {
+  1.0, std::exp(CellShape::SteepestChange), std::exp(2.0 * CellShape::SteepestChange)};
+
+} // namespace
+
 ShapeNoise::ShapeNoise(
   const Scene& scene, const Lanes* lanes, const std::vector<float>& means, const CellShape& shape)
     : Scene_(&scene), Open_(&scene.Open()), Lanes_(lanes), Means_(&means), Shape_(&shape)
@@ -39,7 +48,7 @@ void ShapeNoise::Add(std::int64_t cell, const Vec3& point, double weight, Lanes&
     }
     // Slopes that are cut off do not follow noise.
     const auto [least, most] = std::minmax(means[ends[0]], means[ends[1]]);
-    if (apart > 0 && most < std::exp(CellShape::SteepestChange * apart) * least)
+    if (apart > 0 && most < SteepestRatio[apart] * least)
     {
       // The mean over the cell stays what it is, whatever the slope.
       const double half = 0.5 * size[axis] * this->Shape_->LogarithmSlope(cell, axis);
