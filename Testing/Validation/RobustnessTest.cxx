@@ -281,7 +281,7 @@ TEST(OddInput, Extremes)
       std::optional<Solved> kept;
       try
       {
-        kept.emplace(scene);
+        kept.emplace(scene, 0.03);
       }
       catch (const Error& error)
       {
