@@ -20,6 +20,8 @@ namespace
 /// would bring less noise than is asked for.
 constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
+/// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
+constexpr double ThinShare = 0.25;
 /// Times that lines must have met a cell or patch for its light to be expected there.
 constexpr float FewestMeetings = 1.0F;
 

@@ -75,9 +75,6 @@ public:
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
-  /// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
-  static constexpr double ThinShare = 0.25;
-
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
   /// is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
