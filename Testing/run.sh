@@ -5,4 +5,5 @@ cd "$(dirname "$0")/.."
 . .ci/setup.sh
 smokevisibility_build
 smokevisibility_say "Testing"
-ctest --preset release
+# Most tests keep one core busy.
+ctest --preset release --parallel 2
