@@ -363,7 +363,7 @@ void SignLook::FillMeans(const std::vector<Part>& parts)
     {
       const SeenBlock& seen = part.Blocks[i];
       const PatternBlock& block = part.Pattern.Blocks()[i];
-      const PatternVector factors = FactorsOf(seen.Factors, -1);
+      const PatternVector factors = MeanFactors(seen.Factors);
       const double litPart = seen.Density * Dot(factors, block.LitSum);
       lit += litPart;
       litWeight += seen.Density * block.LitSum[0];
@@ -425,24 +425,15 @@ SignMeasurement SignLook::Measure()
   result.VisibleFraction = this->Seen_ / this->All_;
   result.OpticalDepth /= this->Seen_;
   this->FillMeans(parts);
-  const auto moments = [&](int leftOut)
+  Sums sums;
+  for (const Part& part : parts)
   {
-    Sums sums;
-    for (const Part& part : parts)
-    {
-      AddPixels(part.Pattern, part.Blocks, leftOut, sums);
-    }
-    return sums.Get();
-  };
-  const Moments whole = moments(-1);
-  std::array<Moments, Batches> others;
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    others[batch] = moments(batch);
+    AddPixels(part.Pattern, part.Blocks, sums);
   }
-  result.MeanLuminance = whole.Mean;
-  Jackknife(whole, others, 0.0, result.Contrast, result.ContrastError);
-  Jackknife(whole, others, this->Observer_.DarkLuminance, result.PerceivedContrast,
+  const auto resampled = sums.Get();
+  result.MeanLuminance = resampled[0].Mean;
+  Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
+  Jackknife(resampled, this->Observer_.DarkLuminance, result.PerceivedContrast,
     result.PerceivedContrastError);
   return result;
 }

@@ -2,18 +2,77 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace smokevis
 {
 
-PatternVector FactorsOf(const Coefficients& factors, int leftOut)
+namespace
+{
+
+/// Factors of a block, one a value of the pattern.
+using ResampledFactors = std::array<Resampled, PatternValues>;
+
+ResampledFactors Resample(const Coefficients& factors)
+{
+  ResampledFactors resampled;
+  for (int i = 0; i < PatternValues; ++i)
+  {
+    double sum = 0.0;
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      sum += factors[batch][i];
+    }
+    resampled[i][0] = sum / Batches;
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      resampled[i][1 + batch] = (sum - factors[batch][i]) / (Batches - 1);
+    }
+  }
+  return resampled;
+}
+
+/// Adds weight times the light of what has these values. Most of them are 0.
+void AddLight(const ResampledFactors& factors, const PatternVector& values, double weight,
+  Resampled& light)
+{
+  for (int i = 0; i < PatternValues; ++i)
+  {
+    const double share = weight * values[i];
+    for (std::size_t k = 0; share != 0.0 && k < light.size(); ++k)
+    {
+      light[k] += share * factors[i][k];
+    }
+  }
+}
+
+/// The same of its square.
+void AddSquare(const ResampledFactors& factors,
+  const std::array<PatternVector, PatternValues>& products, double weight, Resampled& square)
+{
+  for (int i = 0; i < PatternValues; ++i)
+  {
+    for (int j = 0; j <= i; ++j)
+    {
+      const double share = (i == j ? 1.0 : 2.0) * weight * products[i][j];
+      for (std::size_t k = 0; share != 0.0 && k < square.size(); ++k)
+      {
+        square[k] += share * factors[i][k] * factors[j][k];
+      }
+    }
+  }
+}
+
+} // namespace
+
+PatternVector MeanFactors(const Coefficients& factors)
 {
   PatternVector mean{};
   for (int batch = 0; batch < Batches; ++batch)
   {
-    for (int i = 0; batch != leftOut && i < PatternValues; ++i)
+    for (int i = 0; i < PatternValues; ++i)
     {
-      mean[i] += factors[batch][i] / (leftOut < 0 ? Batches : Batches - 1);
+      mean[i] += factors[batch][i] / Batches;
     }
   }
   return mean;
@@ -29,77 +88,69 @@ double Dot(const PatternVector& a, const PatternVector& b)
   return sum;
 }
 
-Moments Sums::Get() const
+std::array<Moments, 1 + Batches> Sums::Get() const
 {
-  Moments moments;
-  moments.Mean = std::max(0.0, this->First / this->Weight);
-  moments.Deviation =
-    std::sqrt(std::max(0.0, this->Second / this->Weight - moments.Mean * moments.Mean));
+  std::array<Moments, 1 + Batches> moments;
+  for (std::size_t k = 0; k < moments.size(); ++k)
+  {
+    moments[k].Mean = std::max(0.0, this->First[k] / this->Weight);
+    moments[k].Deviation = std::sqrt(
+      std::max(0.0, this->Second[k] / this->Weight - moments[k].Mean * moments[k].Mean));
+  }
   return moments;
 }
 
-void AddPixels(
-  const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, int leftOut, Sums& sums)
+void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, Sums& sums)
 {
-  std::vector<PatternVector> factors;
+  std::vector<ResampledFactors> factors;
+  factors.reserve(blocks.size());
   for (const SeenBlock& block : blocks)
   {
-    factors.push_back(FactorsOf(block.Factors, leftOut));
+    factors.push_back(Resample(block.Factors));
   }
   for (std::size_t index = 0; pattern.Fine() && index < blocks.size(); ++index)
   {
     const PatternBlock& block = pattern.Blocks()[index];
     const double density = blocks[index].Density;
-    const PatternVector& factor = factors[index];
     sums.Weight += density * block.Sum[0];
-    sums.First += density * Dot(factor, block.Sum);
-    for (int i = 0; i < PatternValues; ++i)
-    {
-      sums.Second += density * factor[i] * factor[i] * block.Products[i][i];
-      for (int j = 0; j < i; ++j)
-      {
-        sums.Second += 2.0 * density * factor[i] * factor[j] * block.Products[i][j];
-      }
-    }
+    AddLight(factors[index], block.Sum, density, sums.First);
+    AddSquare(factors[index], block.Products, density, sums.Second);
   }
   const std::vector<PatternPiece>& pieces = pattern.Pieces();
   for (std::size_t i = 0; i < pieces.size();)
   {
     double weight = 0.0;
-    double light = 0.0;
+    Resampled light{};
     const std::size_t pixel = pieces[i].Pixel;
     for (; i < pieces.size() && pieces[i].Pixel == pixel; ++i)
     {
       const double density = blocks[pieces[i].Block].Density;
       weight += density * pieces[i].Sum[0];
-      light += density * Dot(factors[pieces[i].Block], pieces[i].Sum);
+      AddLight(factors[pieces[i].Block], pieces[i].Sum, density, light);
     }
     sums.Weight += weight;
-    sums.First += light;
-    sums.Second += weight > 0.0 ? light * light / weight : 0.0;
+    for (std::size_t k = 0; k < light.size(); ++k)
+    {
+      sums.First[k] += light[k];
+      sums.Second[k] += weight > 0.0 ? light[k] * light[k] / weight : 0.0;
+    }
   }
 }
 
-void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
-  double& value, double& error)
+void Jackknife(const std::array<Moments, 1 + Batches>& resampled, double dark, double& value,
+  double& error)
 {
-  const auto ratio = [dark](const Moments& moments)
-  {
-    const double below = moments.Mean + dark;
-    return below > 0.0 ? moments.Deviation / below : 0.0;
-  };
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const Moments& part : parts)
-  {
-    sum += ratio(part);
-  }
-  const double mean = sum / Batches;
-  for (const Moments& part : parts)
-  {
-    squares += (ratio(part) - mean) * (ratio(part) - mean);
-  }
-  value = std::max(0.0, Batches * ratio(whole) - (Batches - 1.0) * mean);
+  Resampled ratios;
+  std::transform(resampled.begin(), resampled.end(), ratios.begin(),
+    [dark](const Moments& moments)
+    {
+      const double below = moments.Mean + dark;
+      return below > 0.0 ? moments.Deviation / below : 0.0;
+    });
+  const double mean = std::accumulate(ratios.begin() + 1, ratios.end(), 0.0) / Batches;
+  const double squares = std::accumulate(ratios.begin() + 1, ratios.end(), 0.0,
+    [mean](double sum, double ratio) { return sum + (ratio - mean) * (ratio - mean); });
+  value = std::max(0.0, Batches * ratios[0] - (Batches - 1.0) * mean);
   error = FewBatches * std::sqrt((Batches - 1.0) / Batches * squares);
 }
 

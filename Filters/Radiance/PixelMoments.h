@@ -17,8 +17,8 @@ struct SeenBlock
   Coefficients Factors;
 };
 
-/// Factors of the mean of all batches (-1), or of all but one.
-PatternVector FactorsOf(const Coefficients& factors, int leftOut);
+/// Factors of the mean of all batches.
+PatternVector MeanFactors(const Coefficients& factors);
 
 double Dot(const PatternVector& a, const PatternVector& b);
 
@@ -29,26 +29,26 @@ struct Moments
   double Deviation = 0.0;
 };
 
+/// A value of the mean of all batches, then of the means of all but one of them.
+using Resampled = std::array<double, 1 + Batches>;
+
 /// Weight of the pixels, and the sums of their luminance and of its square.
 struct Sums
 {
   double Weight = 0.0;
-  double First = 0.0;
-  double Second = 0.0;
+  Resampled First{};
+  Resampled Second{};
 
-  Moments Get() const;
+  std::array<Moments, 1 + Batches> Get() const;
 };
 
-/// Adds the pixels of a plane part of a sign, in the light of the mean of all batches (-1) or of
-/// all but one.
+/// Adds the pixels of a plane part of a sign.
 /// @param blocks one a block of the pattern
-void AddPixels(
-  const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, int leftOut, Sums& sums);
+void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks, Sums& sums);
 
 /// Deviation over (mean + dark) with its jackknife estimate, free of first-order bias, and standard
 /// error (as large as two of it must be to hold what two of a normal law do: FewBatches).
-/// @param parts each with one batch left out
-void Jackknife(const Moments& whole, const std::array<Moments, Batches>& parts, double dark,
-  double& value, double& error);
+void Jackknife(const std::array<Moments, 1 + Batches>& resampled, double dark, double& value,
+  double& error);
 
 } // namespace smokevis

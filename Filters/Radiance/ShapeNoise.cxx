@@ -1,12 +1,13 @@
 #include "ShapeNoise.h"
 
 #include "ExponentialMean.h"
-#include "OpenFaces.h"
 #include "Scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -22,41 +23,63 @@ const std::array<double, 3> SteepestRatio = {
 
 ShapeNoise::ShapeNoise(
   const Scene& scene, const Lanes* lanes, const std::vector<float>& means, const CellShape& shape)
-    : Scene_(&scene), Open_(&scene.Open()), Lanes_(lanes), Means_(&means), Shape_(&shape)
+    : Open_(&scene.Open()), Lanes_(lanes), InverseMeans_(means.size()), Responses_(means.size()),
+      Lower_(scene.Smoke().Lower())
 {
+  const auto forEachCell = [&](const auto& visit)
+  {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, means.size(), 1024),
+      [&](const tbb::blocked_range<std::size_t>& range)
+      {
+        for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+        {
+          visit(cell);
+        }
+      });
+  };
+  forEachCell(
+    [&](std::size_t cell)
+    {
+      const float inverse = 1.0F / means[cell];
+      this->InverseMeans_[cell] = means[cell] > 0.0F && std::isfinite(inverse) ? inverse : 0.0F;
+    });
+  forEachCell(
+    [&](std::size_t cell)
+    {
+      // Only scattering cells are asked for.
+      if (this->InverseMeans_[cell] > 0.0F &&
+          scene.Smoke().Extinction(static_cast<std::int64_t>(cell)) > 0.0F)
+      {
+        this->Responses_[cell] = this->Find(scene, static_cast<std::int64_t>(cell), means, shape);
+      }
+    });
 }
 
-void ShapeNoise::Add(std::int64_t cell, const Vec3& point, double weight, Lanes& sum) const
+ShapeNoise::Response ShapeNoise::Find(const Scene& scene, std::int64_t cell,
+  const std::vector<float>& means, const CellShape& shape) const
 {
-  const std::vector<float>& means = *this->Means_;
-  const Medium& smoke = this->Scene_->Smoke();
-  const Vec3 size = smoke.CellSize(cell);
-  const Vec3 from = (point - smoke.CellCentre(cell)) / size;
+  const Vec3 centre = scene.Smoke().CellCentre(cell);
+  const Vec3 size = scene.Smoke().CellSize(cell);
+  Response response;
   for (int axis = 0; axis < 3; ++axis)
   {
-    std::array<std::int64_t, 2> ends = {cell, cell};
+    const auto ends = this->Ends(cell, axis);
     // In edges of the cell, as if its neighbours were as large.
-    int apart = 0;
-    for (const int side : {0, 1})
-    {
-      const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
-      if (other >= 0 && means[other] > 0.0F)
-      {
-        ends[side] = other;
-        ++apart;
-      }
-    }
+    const int apart = (ends[0] != cell ? 1 : 0) + (ends[1] != cell ? 1 : 0);
     // Slopes that are cut off do not follow noise.
     const auto [least, most] = std::minmax(means[ends[0]], means[ends[1]]);
     if (apart > 0 && most < SteepestRatio[apart] * least)
     {
+      const double slope = means[cell] / (apart * size[axis]);
       // The mean over the cell stays what it is, whatever the slope.
-      const double half = 0.5 * size[axis] * this->Shape_->LogarithmSlope(cell, axis);
-      const double share = weight * means[cell] * (from[axis] - 0.5 * Langevin(half)) / apart;
-      smokevis::Add(sum, this->Lanes_[ends[1]], static_cast<float>(share / means[ends[1]]));
-      smokevis::Add(sum, this->Lanes_[ends[0]], static_cast<float>(-share / means[ends[0]]));
+      const double half = 0.5 * size[axis] * shape.LogarithmSlope(cell, axis);
+      const double still =
+        centre[axis] - this->Lower_[axis] + 0.5 * size[axis] * Langevin(half);
+      response.Slope[axis] = static_cast<float>(slope);
+      response.Offset[axis] = static_cast<float>(-slope * still);
     }
   }
+  return response;
 }
 
 } // namespace smokevis

@@ -134,6 +134,7 @@ RayLight View::TraceVeil(
     begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
   thread_local std::vector<Segment> segments;
   smoke.WalkSmoke(origin, direction, begin, end, segments);
+  double ahead = std::exp(-light.OpticalDepth);
   for (const Segment& segment : segments)
   {
     const double extinction = smoke.Extinction(segment.Cell) * scale;
@@ -141,13 +142,16 @@ RayLight View::TraceVeil(
     const double depth = extinction * length;
     if (depth > 0.0 && light.OpticalDepth < DeepestDepth)
     {
-      const double ahead = std::exp(-light.OpticalDepth);
-      const double lost = -std::expm1(-depth);
+      // Both shares to their last digits, where one is small too.
+      const bool thin = depth < 0.1;
+      const double share = thin ? -std::expm1(-depth) : std::exp(-depth);
+      const double lost = thin ? share : 1.0 - share;
+      const double passed = thin ? 1.0 - share : share;
       if (albedo > 0.0)
       {
         // Where a source that varies linearly along the piece takes its mean.
         const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
-                                         : 1.0 / extinction - length * (1.0 - lost) / lost;
+                                         : 1.0 / extinction - length * passed / lost;
         const Vec3 point = origin + (segment.Begin + mean) * direction;
         const double weight = scatter * ahead * lost;
         light.VeilDirect += weight * self.DirectFluence.Smooth(segment.Cell, point, band);
@@ -159,6 +163,7 @@ RayLight View::TraceVeil(
         }
       }
       light.VeilDirect += (1.0 - albedo) * ahead * lost * smoke.EmittedLuminance(segment.Cell);
+      ahead *= passed;
     }
     light.OpticalDepth += depth;
   }
