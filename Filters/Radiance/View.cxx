@@ -17,6 +17,9 @@ namespace
 
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
+/// Relative standard error of a cell's multiply scattered fluence above which shapes do not follow
+/// it: they would be noise, more of it than its first order tells (ShapeNoise).
+constexpr double MostNoise = 0.3;
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
@@ -57,7 +60,12 @@ struct View::Implementation
       std::vector<float>& means = this->MultipleMeans[band];
       means.resize(field.Cells);
       tbb::parallel_for(std::size_t{0}, field.Cells,
-        [&](std::size_t cell) { means[cell] = static_cast<float>(Mean(lanes[cell])); });
+        [&](std::size_t cell)
+        {
+          const double mean = Mean(lanes[cell]);
+          means[cell] =
+            StandardError(lanes[cell]) < MostNoise * mean ? static_cast<float>(mean) : 0.0F;
+        });
       this->MultipleShape[band] =
         CellShape(scene, [&means](std::int64_t, std::int64_t cell) { return means[cell]; });
       this->MultipleNoise[band] = ShapeNoise(scene, lanes, means, this->MultipleShape[band]);
@@ -77,7 +85,8 @@ struct View::Implementation
   const LightField& Field;
   DirectLight Direct;
   DirectField DirectFluence;
-  /// Mean of the batches of the multiply scattered fluence of each cell [lx], and how it varies.
+  /// Mean of the batches of the multiply scattered fluence of each cell where it is known well
+  /// enough for shapes, else 0 [lx], and how it varies.
   std::array<std::vector<float>, 3> MultipleMeans;
   std::array<CellShape, 3> MultipleShape;
   std::array<ShapeNoise, 3> MultipleNoise;
