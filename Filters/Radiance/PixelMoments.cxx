@@ -33,8 +33,8 @@ ResampledFactors Resample(const Coefficients& factors)
 }
 
 /// Adds weight times the light of what has these values. Most of them are 0.
-void AddLight(const ResampledFactors& factors, const PatternVector& values, double weight,
-  Resampled& light)
+void AddLight(
+  const ResampledFactors& factors, const PatternVector& values, double weight, Resampled& light)
 {
   for (int i = 0; i < PatternValues; ++i)
   {
@@ -94,8 +94,8 @@ std::array<Moments, 1 + Batches> Sums::Get() const
   for (std::size_t k = 0; k < moments.size(); ++k)
   {
     moments[k].Mean = std::max(0.0, this->First[k] / this->Weight);
-    moments[k].Deviation = std::sqrt(
-      std::max(0.0, this->Second[k] / this->Weight - moments[k].Mean * moments[k].Mean));
+    moments[k].Deviation =
+      std::sqrt(std::max(0.0, this->Second[k] / this->Weight - moments[k].Mean * moments[k].Mean));
   }
   return moments;
 }
@@ -137,8 +137,8 @@ void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks
   }
 }
 
-void Jackknife(const std::array<Moments, 1 + Batches>& resampled, double dark, double& value,
-  double& error)
+void Jackknife(
+  const std::array<Moments, 1 + Batches>& resampled, double dark, double& value, double& error)
 {
   Resampled ratios;
   std::transform(resampled.begin(), resampled.end(), ratios.begin(),

@@ -48,7 +48,7 @@ void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks
 
 /// Deviation over (mean + dark) with its jackknife estimate, free of first-order bias, and standard
 /// error (as large as two of it must be to hold what two of a normal law do: FewBatches).
-void Jackknife(const std::array<Moments, 1 + Batches>& resampled, double dark, double& value,
-  double& error);
+void Jackknife(
+  const std::array<Moments, 1 + Batches>& resampled, double dark, double& value, double& error);
 
 } // namespace smokevis

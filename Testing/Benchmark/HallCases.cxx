@@ -60,17 +60,28 @@ MapError Compare(const FloorMap& reference, const FloorMap& map)
   return error;
 }
 
+/// Takes in the errors of one more of so many seeds.
+void Add(const MapError& error, int seeds, MapError& all)
+{
+  AddSquare(error.Contrast, seeds, all.Contrast);
+  AddSquare(error.Visibility, seeds, all.Visibility);
+  all.LargestContrast = std::max(all.LargestContrast, error.LargestContrast);
+  all.InErrorBars += error.InErrorBars / seeds;
+}
+
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
 void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine)
 {
   ResultTable table(settings.Out + "/" + name + ".csv",
-    {"tolerance", "threads", "setup_s", "field_s", "map_s", "total_s", "processor_s",
+    {"tolerance", "seeds", "threads", "setup_s", "field_s", "map_s", "total_s", "processor_s",
       "contrast_error", "largest_contrast_error", "visibility_error", "error_over_bar",
       "peak_MiB"});
   const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
   const SceneDescription scene = fine ? FineHall(settings.Time) : Hall(settings.Time);
+  // Ten million cells say enough of themselves, and take long.
+  const int seeds = fine ? 1 : settings.Seeds;
   Progress progress;
   FloorMap reference;
   if (settings.ReferenceTolerance > 0.0)
@@ -80,21 +91,34 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
   }
   for (const double tolerance : settings.Tolerances)
   {
-    const Solution solution = Solve(scene, tolerance, 1, settings.Threads);
-    const StopWatch watch;
-    const FloorMap map = ComputeFloorMap(*solution.TheView, places, progress);
-    const double seconds = watch.Seconds();
-    const double processors = solution.FieldProcessors + watch.Processors();
-    std::vector<std::string> row = {Number(tolerance), Number(settings.Threads),
-      Number(solution.SetUpSeconds), Number(solution.FieldSeconds), Number(seconds),
-      Number(solution.FieldSeconds + seconds), Number(processors)};
+    double setUp = 0.0;
+    double field = 0.0;
+    double look = 0.0;
+    double processors = 0.0;
+    MapError error;
+    for (int seed = 1; seed <= seeds; ++seed)
+    {
+      const Solution solution =
+        Solve(scene, tolerance, static_cast<std::uint64_t>(seed), settings.Threads);
+      const StopWatch watch;
+      const FloorMap map = ComputeFloorMap(*solution.TheView, places, progress);
+      setUp += solution.SetUpSeconds / seeds;
+      field += solution.FieldSeconds / seeds;
+      look += watch.Seconds() / seeds;
+      processors += (solution.FieldProcessors + watch.Processors()) / seeds;
+      if (!reference.Visibility.empty())
+      {
+        Add(Compare(reference, map), seeds, error);
+      }
+    }
+    std::vector<std::string> row = {Number(tolerance), Number(seeds), Number(settings.Threads),
+      Number(setUp), Number(field), Number(look), Number(field + look), Number(processors)};
     if (reference.Visibility.empty())
     {
       row.insert(row.end(), 4, "");
     }
     else
     {
-      const MapError error = Compare(reference, map);
       row.insert(row.end(), {Number(error.Contrast), Number(error.LargestContrast),
                               Number(error.Visibility), Number(error.InErrorBars)});
     }

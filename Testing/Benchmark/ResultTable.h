@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -26,6 +27,12 @@ private:
 
 /// Four significant digits; empty for NaN, which stands for "not measured".
 std::string Number(double value);
+
+/// Takes one of so many values into their root mean square, which begins as 0.
+inline void AddSquare(double value, int count, double& all)
+{
+  all = std::sqrt(all * all + value * value / count);
+}
 
 /// Processor time that this process has used so far, over all threads [s].
 double ProcessorSeconds();

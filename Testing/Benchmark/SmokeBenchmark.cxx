@@ -54,6 +54,7 @@ Settings Parse(int count, char** words)
     {"--threads", [&](const std::string& word) { settings.Threads = std::stoi(word); }},
     {"--reference-tolerance",
       [&](const std::string& word) { settings.ReferenceTolerance = std::stod(word); }},
+    {"--seeds", [&](const std::string& word) { settings.Seeds = std::stoi(word); }},
     {"--limit", [&](const std::string& word) { settings.Limit = std::stod(word); }},
     {"--time", [&](const std::string& word) { settings.Time = std::stod(word); }},
     {"--out", [&](const std::string& word) { settings.Out = word; }},
@@ -82,6 +83,7 @@ void PrintUsage()
     "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver\n"
     "  --samples 1,4,16,64               samples a pixel of the reference integrator\n"
     "  --reference-tolerance 0.001       of what errors are measured against; 0: no errors (hall)\n"
+    "  --seeds 4                         solutions of a tolerance (tunnel, hall12, hall110)\n"
     "  --threads 0                       of the solver; 0: all\n"
     "  --limit 60                        a growth curve ends after so many processor seconds\n"
     "  --time 600                        second of the hall's fire\n"

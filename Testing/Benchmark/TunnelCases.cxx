@@ -80,6 +80,14 @@ PictureError Compare(
   return error;
 }
 
+/// Takes in the errors of one more of so many seeds.
+void Add(const PictureError& error, int seeds, PictureError& all)
+{
+  AddSquare(error.Pixel, seeds, all.Pixel);
+  AddSquare(error.Veil, seeds, all.Veil);
+  all.VeilMean += error.VeilMean / seeds;
+}
+
 std::vector<double> Render(const Solution& solution, const Picture& picture, int threads)
 {
   std::vector<double> values(picture.Rays.size());
@@ -125,9 +133,9 @@ Estimate DarkMean(const Scene& scene, const Picture& picture, std::uint64_t samp
 //--------------------------------------------------------------------------------------------------
 void RunTunnel(const Settings& settings)
 {
-  ResultTable table(
-    settings.Out + "/tunnel.csv", {"method", "setting", "threads", "field_s", "view_s", "total_s",
-                                    "processor_s", "pixel_error", "veil_error", "veil_mean_error"});
+  ResultTable table(settings.Out + "/tunnel.csv",
+    {"method", "setting", "seeds", "threads", "field_s", "view_s", "total_s", "processor_s",
+      "pixel_error", "veil_error", "veil_mean_error"});
   const SceneDescription tunnel = scenes::Tunnel(1.0, 0.9);
   // The reference is the solver's own limit: half the cell size, a small tolerance, another seed.
   // The reference integrator says in the first row how far that is off in the mean.
@@ -149,22 +157,30 @@ void RunTunnel(const Settings& settings)
   const Estimate check = DarkMean(*limit.TheScene, picture, samples);
   table.Row(
     {"reference against integrator, standard error " + Number(check.StandardError / check.Mean),
-      Number(settings.ReferenceTolerance), Number(settings.Threads), Number(limit.FieldSeconds),
-      Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing),
-      Number(limitDark / count / check.Mean - 1.0)});
+      Number(settings.ReferenceTolerance), "1", Number(settings.Threads),
+      Number(limit.FieldSeconds), Number(Nothing), Number(Nothing), Number(Nothing),
+      Number(Nothing), Number(Nothing), Number(limitDark / count / check.Mean - 1.0)});
 
   for (const double tolerance : settings.Tolerances)
   {
-    const Solution solution = Solve(tunnel, tolerance, 1, settings.Threads);
-    const StopWatch watch;
-    const std::vector<double> values = Render(solution, picture, settings.Threads);
-    const double seconds = watch.Seconds();
-    const double processors =
-      solution.SetUpProcessors + solution.FieldProcessors + watch.Processors();
-    const PictureError error = Compare(picture, reference, values);
-    const double field = solution.SetUpSeconds + solution.FieldSeconds;
-    table.Row({"solver", Number(tolerance), Number(settings.Threads), Number(field),
-      Number(seconds), Number(field + seconds), Number(processors), Number(error.Pixel),
+    double field = 0.0;
+    double look = 0.0;
+    double processors = 0.0;
+    PictureError error;
+    for (int seed = 1; seed <= settings.Seeds; ++seed)
+    {
+      const Solution solution =
+        Solve(tunnel, tolerance, static_cast<std::uint64_t>(seed), settings.Threads);
+      const StopWatch watch;
+      const std::vector<double> values = Render(solution, picture, settings.Threads);
+      look += watch.Seconds() / settings.Seeds;
+      processors +=
+        (solution.SetUpProcessors + solution.FieldProcessors + watch.Processors()) / settings.Seeds;
+      field += (solution.SetUpSeconds + solution.FieldSeconds) / settings.Seeds;
+      Add(Compare(picture, reference, values), settings.Seeds, error);
+    }
+    table.Row({"solver", Number(tolerance), Number(settings.Seeds), Number(settings.Threads),
+      Number(field), Number(look), Number(field + look), Number(processors), Number(error.Pixel),
       Number(error.Veil), Number(error.VeilMean)});
   }
   // The integrator's own tasks obey the process's limit, not the arena.
@@ -180,7 +196,7 @@ void RunTunnel(const Settings& settings)
     const double seconds = watch.Seconds();
     const double processors = watch.Processors();
     const PictureError error = Compare(picture, reference, values);
-    table.Row({"reference integrator", Number(perPixel), Number(settings.Threads), Number(0.0),
+    table.Row({"reference integrator", Number(perPixel), "1", Number(settings.Threads), Number(0.0),
       Number(seconds), Number(seconds), Number(processors), Number(error.Pixel), Number(error.Veil),
       Number(error.VeilMean)});
   }
