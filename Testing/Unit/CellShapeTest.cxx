@@ -2,6 +2,7 @@
 #include "CellShape.h"
 #include "Scene.h"
 #include "ShapeNoise.h"
+#include "View.h"
 
 #include <cmath>
 #include <numbers>
@@ -81,6 +82,34 @@ TEST(ShapeNoise, IsThatOfFieldsOfEachBatch)
       // The second order is about the square of the largest deviation.
       EXPECT_NEAR(value[batch] / expected, 1.0, 3e-5) << "x = " << x << ", batch " << batch;
     }
+  }
+}
+
+// A neighbour that one batch alone brings light to says nothing of a slope: without it, a ray has
+// the noise of its own cell, as in the same light without that neighbour's.
+TEST(ShapeNoise, LeavesOutCellsThatAreMostlyNoise)
+{
+  const std::shared_ptr<const Scene> scene(new Scene(Row()));
+  Lanes spike;
+  spike[0] = 16.0F;
+  const auto veil = [&](const Lanes& beside)
+  {
+    auto field = std::make_shared<LightField>();
+    field->Cells = 3;
+    field->Patches = scene->Patches();
+    field->DirectFluence.assign(3, 0.0F);
+    field->MultipleFluence = {Noisy(2.0, 0.01, 1), Noisy(2.0, 0.01, 2), beside};
+    field->DirectIlluminance.assign(2 * field->Patches, 0.0F);
+    field->MultipleIlluminance.assign(2 * field->Patches, Lanes());
+    return View(scene, field).TraceVeil({1.9, 0.1, 0.1}, {0, 1, 0}, 0.0, 0.5, 0).VeilMultiple;
+  };
+  const Lanes noise = veil(spike);
+  const Lanes dark = veil(Lanes());
+  EXPECT_GT(Mean(dark), 0.0);
+  EXPECT_LT(StandardError(dark) / Mean(dark), 0.01);
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    EXPECT_FLOAT_EQ(noise[batch], dark[batch]);
   }
 }
 
