@@ -91,10 +91,10 @@ void MultipleSolve::Refine(BatchSweeps& sweeps, const VeilProbes& probes) const
     // again.
     const double share = error / wanted;
     const double missing = sweeps.Counted() * (std::min(2.0, share * share) - 1.0);
-    // What few sweeps told of the shape of sources is alike in all batches: no error bar knows it.
-    sweeps.Follow();
     sweeps.Draw(
       std::clamp(static_cast<int>(std::ceil(missing)), 1, Settling::MostSweeps - sweeps.Done()));
+    // What few sweeps told of the shape of sources is alike in all batches: no error bar knows it.
+    sweeps.Follow();
   }
 }
 

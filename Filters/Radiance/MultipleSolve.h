@@ -37,7 +37,7 @@ private:
   /// Bound of the share of the direct light along lines of sight that all other light is.
   /// @param toSigns lines of sight to signs, or anywhere where there are none
   double LargestShare(int band, const VeilProbes& toSigns) const;
-  /// Draws sweeps until the error of the veil meets the tolerance.
+  /// Draws sweeps until the error of the veil meets the tolerance; sources' shapes follow them.
   void Refine(BatchSweeps& sweeps, const VeilProbes& probes) const;
   /// Keeps the means of the sums.
   void Keep(int band, const BatchSweeps& sweeps);

@@ -39,7 +39,11 @@ void AddLight(
   for (int i = 0; i < PatternValues; ++i)
   {
     const double share = weight * values[i];
-    for (std::size_t k = 0; share != 0.0 && k < light.size(); ++k)
+    if (share == 0.0)
+    {
+      continue;
+    }
+    for (std::size_t k = 0; k < light.size(); ++k)
     {
       light[k] += share * factors[i][k];
     }
@@ -55,7 +59,11 @@ void AddSquare(const ResampledFactors& factors,
     for (int j = 0; j <= i; ++j)
     {
       const double share = (i == j ? 1.0 : 2.0) * weight * products[i][j];
-      for (std::size_t k = 0; share != 0.0 && k < square.size(); ++k)
+      if (share == 0.0)
+      {
+        continue;
+      }
+      for (std::size_t k = 0; k < square.size(); ++k)
       {
         square[k] += share * factors[i][k] * factors[j][k];
       }

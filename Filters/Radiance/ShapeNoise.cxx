@@ -70,12 +70,11 @@ ShapeNoise::Response ShapeNoise::Find(const Scene& scene, std::int64_t cell,
     const auto [least, most] = std::minmax(means[ends[0]], means[ends[1]]);
     if (apart > 0 && most < SteepestRatio[apart] * least)
     {
-      const double slope = means[cell] / (apart * size[axis]);
+      response.Slope[axis] = static_cast<float>(means[cell] / (apart * size[axis]));
       // The mean over the cell stays what it is, whatever the slope.
       const double half = 0.5 * size[axis] * shape.LogarithmSlope(cell, axis);
       const double still = centre[axis] - this->Lower_[axis] + 0.5 * size[axis] * Langevin(half);
-      response.Slope[axis] = static_cast<float>(slope);
-      response.Offset[axis] = static_cast<float>(-slope * still);
+      response.Offset[axis] = static_cast<float>(-response.Slope[axis] * still);
     }
   }
   return response;

@@ -24,8 +24,9 @@ class ShapeNoise
 public:
   /// None.
   ShapeNoise() = default;
+  /// @param scene must outlive this
   /// @param lanes batches of the field, a value a cell; must outlive this
-  /// @param means of the batches
+  /// @param means of the batches, 0 in cells that shapes leave out
   /// @param shape from those means
   ShapeNoise(const Scene& scene, const Lanes* lanes, const std::vector<float>& means,
     const CellShape& shape);

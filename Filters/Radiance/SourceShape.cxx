@@ -118,7 +118,8 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
           const float low = value(axis, 0);
           const float high = value(axis, 1);
           // Light falls off exponentially.
-          slope[axis] = low > 0.0F && high > 0.0F ? std::log(high / low) * own.Inverse[axis] : 0.0F;
+          slope[axis] =
+            low > 0.0F && high > 0.0F ? (std::log(high) - std::log(low)) * own.Inverse[axis] : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];
         }
         // Nowhere below 0.

@@ -18,7 +18,8 @@ namespace
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
 /// Relative standard error of a cell's multiply scattered fluence above which shapes do not follow
-/// it: they would be noise, more of it than its first order tells (ShapeNoise).
+/// it. A single batch may then bring most of that light, and the first order of its noise
+/// (ShapeNoise), many times the light of brighter cells beside it, would be all that is seen there.
 constexpr double MostNoise = 0.3;
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
@@ -57,8 +58,8 @@ struct View::Implementation
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
       const Lanes* const lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
-      std::vector<float>& means = this->MultipleMeans[band];
-      means.resize(field.Cells);
+      // 0 where shapes do not follow the light.
+      std::vector<float> means(field.Cells);
       tbb::parallel_for(std::size_t{0}, field.Cells,
         [&](std::size_t cell)
         {
@@ -73,10 +74,6 @@ struct View::Implementation
     this->FindLeak();
   }
 
-  /// Noises point to means and shapes.
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
-
   void FindLeak();
   /// Adds weight times the batches of the fluence at a point of a cell.
   void AddMultiple(std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const;
@@ -85,9 +82,7 @@ struct View::Implementation
   const LightField& Field;
   DirectLight Direct;
   DirectField DirectFluence;
-  /// Mean of the batches of the multiply scattered fluence of each cell where it is known well
-  /// enough for shapes, else 0 [lx], and how it varies.
-  std::array<std::vector<float>, 3> MultipleMeans;
+  /// How the multiply scattered fluence varies inside the cells.
   std::array<CellShape, 3> MultipleShape;
   std::array<ShapeNoise, 3> MultipleNoise;
   /// Fluence that rounding may let through the walls of a solid [lx].
@@ -153,9 +148,9 @@ RayLight View::TraceVeil(
     {
       // Both shares to their last digits, where one is small too.
       const bool thin = depth < 0.1;
-      const double share = thin ? -std::expm1(-depth) : std::exp(-depth);
-      const double lost = thin ? share : 1.0 - share;
-      const double passed = thin ? 1.0 - share : share;
+      const double smaller = thin ? -std::expm1(-depth) : std::exp(-depth);
+      const double lost = thin ? smaller : 1.0 - smaller;
+      const double passed = thin ? 1.0 - smaller : smaller;
       if (albedo > 0.0)
       {
         // Where a source that varies linearly along the piece takes its mean.

@@ -27,8 +27,8 @@ struct Settings
   int Threads = 0;
   /// Tolerance of the solutions that others are measured against.
   double ReferenceTolerance = 0.001;
-  /// Solutions that each tolerance is tried with, of the seeds 1, 2, ...: times are their mean,
-  /// errors their root mean square. What one of them happens to hit says little.
+  /// Solutions that each tolerance is tried with, of the seeds 1, 2, ..., at least one: times are
+  /// their mean, errors their root mean square. What one of them happens to hit says little.
   int Seeds = 4;
   /// A growth curve ends after the first point that takes longer [processor seconds].
   double Limit = 60.0;

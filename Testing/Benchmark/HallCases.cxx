@@ -63,8 +63,8 @@ MapError Compare(const FloorMap& reference, const FloorMap& map)
 /// Takes in the errors of one more of so many seeds.
 void Add(const MapError& error, int seeds, MapError& all)
 {
-  AddSquare(error.Contrast, seeds, all.Contrast);
-  AddSquare(error.Visibility, seeds, all.Visibility);
+  AddToRootMeanSquare(error.Contrast, seeds, all.Contrast);
+  AddToRootMeanSquare(error.Visibility, seeds, all.Visibility);
   all.LargestContrast = std::max(all.LargestContrast, error.LargestContrast);
   all.InErrorBars += error.InErrorBars / seeds;
 }

@@ -29,7 +29,7 @@ private:
 std::string Number(double value);
 
 /// Takes one of so many values into their root mean square, which begins as 0.
-inline void AddSquare(double value, int count, double& all)
+inline void AddToRootMeanSquare(double value, int count, double& all)
 {
   all = std::sqrt(all * all + value * value / count);
 }

@@ -68,6 +68,10 @@ Settings Parse(int count, char** words)
     }
     option->second(words[i + 1]);
   }
+  if (settings.Seeds < 1)
+  {
+    throw std::invalid_argument("--seeds must be 1 or more");
+  }
   if (settings.Cases.empty())
   {
     throw std::invalid_argument("no case is asked for");

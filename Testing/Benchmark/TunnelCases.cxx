@@ -83,8 +83,8 @@ PictureError Compare(
 /// Takes in the errors of one more of so many seeds.
 void Add(const PictureError& error, int seeds, PictureError& all)
 {
-  AddSquare(error.Pixel, seeds, all.Pixel);
-  AddSquare(error.Veil, seeds, all.Veil);
+  AddToRootMeanSquare(error.Pixel, seeds, all.Pixel);
+  AddToRootMeanSquare(error.Veil, seeds, all.Veil);
   all.VeilMean += error.VeilMean / seeds;
 }
 

@@ -85,8 +85,8 @@ TEST(Slab, CoarseLayers)
 }
 
 // How light falls off inside such layers is told by noisy means, once for all batches, so that
-// error bars hardly know: all sweeps must have a say. Those of the first few alone made 1.3 %
-// between seeds.
+// error bars hardly know: the sweeps that meet the tolerance must have a say. Those of the first
+// few alone made 1.3 % between seeds.
 TEST(Slab, CoarseLayersAreAlikeForAllSeeds)
 {
   const scenes::Slab slab = scenes::MakeSlab(5.0, 0.5, 3);
