@@ -22,8 +22,11 @@ constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
 constexpr double Lift = 1e-4;
 
-/// Optical depth of a step above which the logarithm of the fluence is interpolated.
+/// Optical depth of a step, in smoke as thick as at the plate, above which the logarithm of the
+/// fluence is interpolated, and above which nodes tell nothing of places between them: where that
+/// smoke ends, what even smoke would dim is many times off.
 constexpr double ThinStep = 0.5;
+constexpr double ThickStep = 2.0;
 
 /// Counts that come out whole but for rounding are whole.
 constexpr double Rounding = 1e-4;
@@ -170,6 +173,11 @@ double NearField::EvenDepth(const Vec3& place, int band) const
          std::sqrt(glm::dot(place, place) + plate);
 }
 
+double NearField::StepDepth(const Level& level, int band) const
+{
+  return this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
+}
+
 float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
 {
   std::atomic<float>& kept = level.Values[level.Index(node, band)];
@@ -217,7 +225,7 @@ double NearField::Fluence(const Vec3& point, int band) const
   }
   const auto found = std::lower_bound(this->Levels_.begin(), this->Levels_.end(), this->Away(place),
     [](const std::unique_ptr<Level>& level, double value) { return level->Reach < value; });
-  if (found == this->Levels_.end())
+  if (found == this->Levels_.end() || this->StepDepth(**found, band) > ThickStep)
   {
     return this->Direct_.Fluence(this->Light_, point, true)[band];
   }
@@ -296,8 +304,8 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
   }
   // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
   // smoke exponentially.
-  const double across = this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
-  return across > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm) : sum;
+  return this->StepDepth(level, band) > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm)
+                                                                             : sum;
 }
 
 } // namespace smokevis

@@ -47,8 +47,9 @@ private:
   double Away(const Vec3& place) const;
   /// Solid angle of the plate's rectangle at a place in front of it.
   double PlateAngle(const Vec3& place) const;
-  /// Optical depth of even smoke between a place and the plate.
+  /// Optical depth of even smoke between a place and the plate, and across a level's step.
   double EvenDepth(const Vec3& place, int band) const;
+  double StepDepth(const Level& level, int band) const;
 
   const Scene& Scene_;
   const DirectLight& Direct_;

@@ -91,6 +91,28 @@ void CompareSeeds(const Solved& a, const Solved& b, const stress::StressScene& s
   }
 }
 
+/// Many times the luminance of all that sends light in a scene: what is interpolated may overshoot
+/// beside thick smoke, but not by orders.
+double MostLuminance(const Solved& solved)
+{
+  double most = 100.0 * solved.TheScene->Sky();
+  for (const EmitterCell& cell : solved.TheScene->Lights().Cells())
+  {
+    most = std::max(most, 100.0 * *std::max_element(cell.Luminance.begin(), cell.Luminance.end()));
+  }
+  for (std::size_t i = 0; i < solved.Field->DirectFluence.size(); ++i)
+  {
+    most = std::max(
+      most, 100.0 * (solved.Field->DirectFluence[i] + Mean(solved.Field->MultipleFluence[i])));
+  }
+  for (std::size_t i = 0; i < solved.Field->DirectIlluminance.size(); ++i)
+  {
+    most = std::max(most,
+      100.0 * (solved.Field->DirectIlluminance[i] + Mean(solved.Field->MultipleIlluminance[i])));
+  }
+  return most;
+}
+
 /// All that is to be said about one solution: the light field, each sign, a few rays.
 void ExpectSane(const Solved& solved, const stress::StressScene& scene, std::uint64_t seed)
 {
@@ -100,6 +122,7 @@ void ExpectSane(const Solved& solved, const stress::StressScene& scene, std::uin
   {
     stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, scene.Eye, Observer{0.0}));
   }
+  const double most = MostLuminance(solved);
   Pcg32 random(seed, 1);
   for (int i = 0; i < 5; ++i)
   {
@@ -109,6 +132,7 @@ void ExpectSane(const Solved& solved, const stress::StressScene& scene, std::uin
     {
       const double light = solved.TheView->Trace(ray.Origin, ray.Direction, hit, band).Total();
       EXPECT_TRUE(std::isfinite(light) && light >= 0.0) << light;
+      EXPECT_LE(light, most);
     }
   }
 }

@@ -2,6 +2,7 @@
 // plate.
 #include "DirectField.h"
 #include "LightField.h"
+#include "NearField.h"
 #include "Scene.h"
 
 #include <cmath>
@@ -240,6 +241,31 @@ TEST(Blocks, HoldEveryCellOnce)
     EXPECT_EQ(block.Cells(), number);
   }
   EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
+}
+
+// Before a plate in smoke that takes hundreds of mean free paths a cell and ends before the next
+// one, lattices that were made for even smoke would tell of light many orders brighter than the
+// plate.
+TEST(NearField, ThickSmokeThatEnds)
+{
+  SceneDescription description = Barred(1);
+  std::vector<float>& extinction = description.Grids[0].Extinction;
+  for (std::size_t cell = 0; cell < extinction.size(); ++cell)
+  {
+    extinction[cell] = cell % 12 == 11 && cell % 144 / 12 < 7 ? 1500.0F : 0.01F;
+  }
+  const Scene scene(description);
+  const DirectLight direct(scene);
+  const NearField field(scene, direct, 0, 2.0);
+  for (const double x : {0.3, 1.0, 1.4, 1.7, 1.82})
+  {
+    for (const double y : {0.2, 0.8, 1.0, 1.3, 1.9})
+    {
+      const Vec3 point(x, y, 1.05);
+      const double expected = direct.Fluence(0, point, true)[0];
+      EXPECT_NEAR(field.Fluence(point, 0), expected, 1e-6 * expected) << x << ' ' << y;
+    }
+  }
 }
 
 } // namespace
