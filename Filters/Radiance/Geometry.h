@@ -1,43 +1,14 @@
-// Opaque shapes and rays against them. The one place that knows Embree.
+// All opaque shapes of a scene, which may touch, and rays against them.
 #pragma once
 
+#include "SurfaceMesh.h"
+#include "TriangleTree.h"
 #include "Types.h"
 
-#include <limits>
-#include <memory>
 #include <vector>
 
 namespace smokevis
 {
-
-/// Triangulated surface cells.
-struct SurfaceMesh
-{
-  std::vector<Vec3> Points;
-  /// Corners of each triangle; the front is the right-hand side.
-  std::vector<std::array<std::uint32_t, 3>> Triangles;
-  /// The cell that each triangle belongs to.
-  std::vector<std::uint32_t> TriangleCell;
-  /// Diffuse reflectance of each cell, both sides, 0 to 1 a band.
-  std::vector<Spectrum> CellReflectance;
-
-  bool operator==(const SurfaceMesh&) const = default;
-};
-
-/// Where a ray meets a shape.
-struct Hit
-{
-  /// Distance along the ray [m]; infinity: nothing was hit.
-  double Distance = std::numeric_limits<double>::infinity();
-  /// Place of the triangle among Geometry's, of the surfaces or of the emitters.
-  std::uint32_t Triangle = 0;
-  /// True where a plate of a sign or lamp was hit.
-  bool Emitter = false;
-  /// 0: seen from its front, 1: from its back.
-  int Side = 0;
-
-  bool Found() const { return this->Distance < std::numeric_limits<double>::infinity(); }
-};
 
 /// Where a straight line passes through a shape, as seen from both sides.
 struct Crossing
@@ -54,28 +25,26 @@ struct Crossing
 class Geometry
 {
 public:
-  Geometry();
+  /// None.
+  Geometry() = default;
   /// Builds the search structures. Exact duplicates and triangles without area are left out.
   /// @param sceneSize diagonal of all that rays come from, smoke included [m]; at least that of the
   /// shapes is taken
   /// @param coreSize diagonal of the part that matters, such as the smoke [m]; 0: all does
   Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0,
     double coreSize = 0.0);
-  ~Geometry();
-  Geometry(Geometry&&) noexcept;
-  Geometry& operator=(Geometry&&) noexcept;
 
-  bool Empty() const;
+  bool Empty() const { return this->Surfaces_.Empty() && this->Emitters_.Empty(); }
   /// Distance within which two shapes count as touching [m].
-  double Tolerance() const;
+  double Tolerance() const { return this->Tolerance_; }
   /// Triangles that are there to be hit, as indices into their mesh; Hit::Triangle is a place in
   /// this list.
-  const std::vector<std::size_t>& SurfaceTriangles() const;
-  const std::vector<std::size_t>& EmitterTriangles() const;
+  const std::vector<std::size_t>& SurfaceTriangles() const { return this->Surfaces_.Triangles(); }
+  const std::vector<std::size_t>& EmitterTriangles() const { return this->Emitters_.Triangles(); }
   /// The cell of a surface triangle or of an emitter triangle.
-  std::uint32_t Cell(const Hit& hit) const;
+  std::uint32_t Cell(const Hit& hit) const { return this->TreeOf(hit).Cell(hit.Triangle); }
   /// Unit normal of the front of the triangle that was hit.
-  Vec3 Normal(const Hit& hit) const;
+  const Vec3& Normal(const Hit& hit) const { return this->TreeOf(hit).Normal(hit.Triangle); }
 
   /// First shape met between two distances [m].
   Hit Intersect(const Vec3& origin, const Vec3& direction, double begin, double end) const;
@@ -88,8 +57,23 @@ public:
   bool Visible(const Vec3& from, const Vec3& to) const;
 
 private:
-  struct Implementation;
-  std::unique_ptr<Implementation> Implementation_;
+  const TriangleTree& TreeOf(const Hit& hit) const
+  {
+    return hit.Emitter ? this->Emitters_ : this->Surfaces_;
+  }
+  /// Whether a plate that was hit lies in the surface that was hit, to within the tolerance.
+  bool Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const;
+  /// Of the surfaces that a line meets within a gap, the first of the model of those that lie in
+  /// the nearest one, or in the farthest, whichever way rounding falls.
+  Hit FirstOfModel(std::vector<Hit>::const_iterator nearest, std::vector<Hit>::const_iterator end,
+    double gap, bool farthest) const;
+  /// The surface and the plate that a ray meets first; a plate farther than the surface is only
+  /// looked for as deep as it can still touch it.
+  void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
+    Hit& surface, Hit& plate) const;
+
+  TriangleTree Surfaces_, Emitters_;
+  double Tolerance_ = 0.0;
 };
 
 } // namespace smokevis

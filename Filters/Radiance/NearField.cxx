@@ -104,9 +104,13 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {
+    const double step = distance / (this->Levels_.empty() ? InnermostSteps : Steps);
+    if (this->Extinction_ * scene.LargestScale() * step > ThickStep)
+    {
+      break;
+    }
     auto level = std::make_unique<Level>();
     level->Reach = distance;
-    const double step = distance / (this->Levels_.empty() ? InnermostSteps : Steps);
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
@@ -173,11 +177,6 @@ double NearField::EvenDepth(const Vec3& place, int band) const
          std::sqrt(glm::dot(place, place) + plate);
 }
 
-double NearField::StepDepth(const Level& level, int band) const
-{
-  return this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
-}
-
 float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
 {
   std::atomic<float>& kept = level.Values[level.Index(node, band)];
@@ -213,7 +212,7 @@ double NearField::Away(const Vec3& place) const
 
 bool NearField::Smooth(const Vec3& point) const
 {
-  return this->Away(this->ToPlate(point)) > this->Levels_.front()->Reach;
+  return !this->Levels_.empty() && this->Away(this->ToPlate(point)) > this->Levels_.front()->Reach;
 }
 
 double NearField::Fluence(const Vec3& point, int band) const
@@ -225,7 +224,7 @@ double NearField::Fluence(const Vec3& point, int band) const
   }
   const auto found = std::lower_bound(this->Levels_.begin(), this->Levels_.end(), this->Away(place),
     [](const std::unique_ptr<Level>& level, double value) { return level->Reach < value; });
-  if (found == this->Levels_.end() || this->StepDepth(**found, band) > ThickStep)
+  if (found == this->Levels_.end())
   {
     return this->Direct_.Fluence(this->Light_, point, true)[band];
   }
@@ -304,8 +303,8 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
   }
   // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
   // smoke exponentially.
-  return this->StepDepth(level, band) > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm)
-                                                                             : sum;
+  const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
+  return stepDepth > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm) : sum;
 }
 
 } // namespace smokevis

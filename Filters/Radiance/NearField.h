@@ -15,7 +15,9 @@ struct LightGroup;
 /// Boxes around a light's plate, each twice as far from it as the one inside. Their nodes hold the
 /// light's fluence over that of an evenly bright plate in even smoke, a closed form: what is left
 /// varies slowly and is interpolated. A node is computed when it is first asked for; its value
-/// depends on the scene alone, so that it does not matter which thread does so.
+/// depends on the scene alone, so that it does not matter which thread does so. There are boxes as
+/// far as a lattice's step is no thicker than a few mean free paths: beyond, light is asked for
+/// itself.
 class NearField
 {
 public:
@@ -47,9 +49,8 @@ private:
   double Away(const Vec3& place) const;
   /// Solid angle of the plate's rectangle at a place in front of it.
   double PlateAngle(const Vec3& place) const;
-  /// Optical depth of even smoke between a place and the plate, and across a level's step.
+  /// Optical depth of even smoke between a place and the plate [-].
   double EvenDepth(const Vec3& place, int band) const;
-  double StepDepth(const Level& level, int band) const;
 
   const Scene& Scene_;
   const DirectLight& Direct_;

@@ -15,18 +15,14 @@ using ResampledFactors = std::array<Resampled, PatternValues>;
 
 ResampledFactors Resample(const Coefficients& factors)
 {
+  const PatternVector mean = MeanFactors(factors);
   ResampledFactors resampled;
   for (int i = 0; i < PatternValues; ++i)
   {
-    double sum = 0.0;
+    resampled[i][0] = mean[i];
     for (int batch = 0; batch < Batches; ++batch)
     {
-      sum += factors[batch][i];
-    }
-    resampled[i][0] = sum / Batches;
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      resampled[i][1 + batch] = (sum - factors[batch][i]) / (Batches - 1);
+      resampled[i][1 + batch] = (Batches * mean[i] - factors[batch][i]) / (Batches - 1);
     }
   }
   return resampled;
@@ -96,9 +92,9 @@ double Dot(const PatternVector& a, const PatternVector& b)
   return sum;
 }
 
-std::array<Moments, 1 + Batches> Sums::Get() const
+ResampledMoments Sums::Get() const
 {
-  std::array<Moments, 1 + Batches> moments;
+  ResampledMoments moments;
   for (std::size_t k = 0; k < moments.size(); ++k)
   {
     moments[k].Mean = std::max(0.0, this->First[k] / this->Weight);
@@ -145,8 +141,7 @@ void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks
   }
 }
 
-void Jackknife(
-  const std::array<Moments, 1 + Batches>& resampled, double dark, double& value, double& error)
+void Jackknife(const ResampledMoments& resampled, double dark, double& value, double& error)
 {
   Resampled ratios;
   std::transform(resampled.begin(), resampled.end(), ratios.begin(),

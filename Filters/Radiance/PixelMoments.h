@@ -31,6 +31,7 @@ struct Moments
 
 /// A value of the mean of all batches, then of the means of all but one of them.
 using Resampled = std::array<double, 1 + Batches>;
+using ResampledMoments = std::array<Moments, 1 + Batches>;
 
 /// Weight of the pixels, and the sums of their luminance and of its square.
 struct Sums
@@ -39,7 +40,7 @@ struct Sums
   Resampled First{};
   Resampled Second{};
 
-  std::array<Moments, 1 + Batches> Get() const;
+  ResampledMoments Get() const;
 };
 
 /// Adds the pixels of a plane part of a sign.
@@ -48,7 +49,6 @@ void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks
 
 /// Deviation over (mean + dark) with its jackknife estimate, free of first-order bias, and standard
 /// error (as large as two of it must be to hold what two of a normal law do: FewBatches).
-void Jackknife(
-  const std::array<Moments, 1 + Batches>& resampled, double dark, double& value, double& error);
+void Jackknife(const ResampledMoments& resampled, double dark, double& value, double& error);
 
 } // namespace smokevis

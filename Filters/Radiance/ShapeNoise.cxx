@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace smokevis
@@ -26,24 +25,13 @@ ShapeNoise::ShapeNoise(
     : Open_(&scene.Open()), Lanes_(lanes), InverseMeans_(means.size()), Responses_(means.size()),
       Lower_(scene.Smoke().Lower())
 {
-  const auto forEachCell = [&](const auto& visit)
-  {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, means.size(), 1024),
-      [&](const tbb::blocked_range<std::size_t>& range)
-      {
-        for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
-        {
-          visit(cell);
-        }
-      });
-  };
-  forEachCell(
+  tbb::parallel_for(std::size_t{0}, means.size(),
     [&](std::size_t cell)
     {
       const float inverse = 1.0F / means[cell];
       this->InverseMeans_[cell] = means[cell] > 0.0F && std::isfinite(inverse) ? inverse : 0.0F;
     });
-  forEachCell(
+  tbb::parallel_for(std::size_t{0}, means.size(),
     [&](std::size_t cell)
     {
       // Only scattering cells are asked for.

@@ -38,8 +38,8 @@ public:
     const Vec3 from = point - this->Lower_;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto share = static_cast<float>(
-        weight * (own.Slope[axis] * from[axis] + static_cast<double>(own.Offset[axis])));
+      const auto share =
+        static_cast<float>(weight * (own.Slope[axis] * from[axis] + own.Offset[axis]));
       if (share != 0.0F)
       {
         const auto [low, high] = this->Ends(cell, axis);

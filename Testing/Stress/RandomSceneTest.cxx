@@ -91,24 +91,22 @@ void CompareSeeds(const Solved& a, const Solved& b, const stress::StressScene& s
   }
 }
 
-/// Many times the luminance of all that sends light in a scene: what is interpolated may overshoot
-/// beside thick smoke, but not by orders.
-double MostLuminance(const Solved& solved)
+/// Above the luminance of all that sends light in a scene, smoke and surfaces included.
+double Brightest(const Solved& solved)
 {
-  double most = 100.0 * solved.TheScene->Sky();
+  double most = solved.TheScene->Sky();
   for (const EmitterCell& cell : solved.TheScene->Lights().Cells())
   {
-    most = std::max(most, 100.0 * *std::max_element(cell.Luminance.begin(), cell.Luminance.end()));
+    most = std::max(most, *std::max_element(cell.Luminance.begin(), cell.Luminance.end()));
   }
   for (std::size_t i = 0; i < solved.Field->DirectFluence.size(); ++i)
   {
-    most = std::max(
-      most, 100.0 * (solved.Field->DirectFluence[i] + Mean(solved.Field->MultipleFluence[i])));
+    most = std::max(most, solved.Field->DirectFluence[i] + Mean(solved.Field->MultipleFluence[i]));
   }
   for (std::size_t i = 0; i < solved.Field->DirectIlluminance.size(); ++i)
   {
-    most = std::max(most,
-      100.0 * (solved.Field->DirectIlluminance[i] + Mean(solved.Field->MultipleIlluminance[i])));
+    most = std::max(
+      most, solved.Field->DirectIlluminance[i] + Mean(solved.Field->MultipleIlluminance[i]));
   }
   return most;
 }
@@ -122,7 +120,8 @@ void ExpectSane(const Solved& solved, const stress::StressScene& scene, std::uin
   {
     stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, scene.Eye, Observer{0.0}));
   }
-  const double most = MostLuminance(solved);
+  // What is interpolated may overshoot beside thick smoke, but not by orders.
+  const double most = 100.0 * Brightest(solved);
   Pcg32 random(seed, 1);
   for (int i = 0; i < 5; ++i)
   {

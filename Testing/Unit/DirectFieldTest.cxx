@@ -243,9 +243,8 @@ TEST(Blocks, HoldEveryCellOnce)
   EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
 }
 
-// Before a plate in smoke that takes hundreds of mean free paths a cell and ends before the next
-// one, lattices that were made for even smoke would tell of light many orders brighter than the
-// plate.
+// Before a plate in smoke of hundreds of mean free paths a cell, a corner of which is free,
+// lattices that are made for even smoke would tell of light many orders brighter than the plate.
 TEST(NearField, ThickSmokeThatEnds)
 {
   SceneDescription description = Barred(1);
