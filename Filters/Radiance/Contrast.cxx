@@ -16,6 +16,13 @@ namespace
 
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
+/// Standard error of the contrast above which the veil is gathered, and the share of it that what
+/// is gathered may leave.
+constexpr double WantedError = 0.005;
+constexpr double GatheredShare = 0.5;
+/// A sign whose lit parts are fainter than this share of the observer's own noise is not worth
+/// gathering for: it stands out by a hundredth at most.
+constexpr double FaintShare = 0.01;
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
 constexpr int MostPixels = 512;
 
@@ -188,6 +195,9 @@ private:
   void FillFactors(
     const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen);
   void FillMeans(const std::vector<Part>& parts);
+  /// Contrasts and all that depends on the veil.
+  void FillResult(const std::vector<Facet>& facets, std::vector<Part>& parts);
+  void GatherVeils();
 
   const View& View_;
   const EmitterSet& Lights_;
@@ -292,6 +302,7 @@ void SignLook::FillFactors(
   const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen)
 {
   const Vec3 point = this->OnFacet(facet, place);
+  seen.Factors = {};
   const double weight = seen.Density * block.Sum[0];
   const Scene& scene = this->View_.TheScene();
   const Vec3 way = point - this->Eye_;
@@ -386,6 +397,44 @@ void SignLook::FillMeans(const std::vector<Part>& parts)
   result.MeanLuminanceError = StandardError(mean);
 }
 
+void SignLook::FillResult(const std::vector<Facet>& facets, std::vector<Part>& parts)
+{
+  SignMeasurement& result = this->Result_;
+  result.OpticalDepth = 0.0;
+  Sums sums;
+  for (std::size_t index = 0; index < parts.size(); ++index)
+  {
+    Part& part = parts[index];
+    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    {
+      if (part.Blocks[i].Density > 0.0)
+      {
+        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
+      }
+    }
+    AddPixels(part.Pattern, part.Blocks, sums);
+  }
+  result.OpticalDepth /= this->Seen_;
+  this->FillMeans(parts);
+  const ResampledMoments resampled = sums.Get();
+  result.MeanLuminance = resampled[0].Mean;
+  Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
+  Jackknife(resampled, this->Observer_.DarkLuminance, result.PerceivedContrast,
+    result.PerceivedContrastError);
+}
+
+void SignLook::GatherVeils()
+{
+  // Contrast is deviation over mean: a veil moves it as it moves the mean.
+  const double wanted = GatheredShare * WantedError * this->Result_.MeanLuminance /
+                        std::max(WantedError, this->Result_.Contrast);
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    this->Result_.Rays +=
+      this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band, wanted);
+  }
+}
+
 SignMeasurement SignLook::Measure()
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, this->Plate_, this->Eye_);
@@ -409,32 +458,16 @@ SignMeasurement SignLook::Measure()
     this->Veils_.emplace_back(
       this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
   }
-  for (std::size_t index = 0; index < parts.size(); ++index)
-  {
-    Part& part = parts[index];
-    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
-    {
-      if (part.Blocks[i].Density > 0.0)
-      {
-        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
-      }
-    }
-  }
   SignMeasurement& result = this->Result_;
   result.InView = true;
   result.VisibleFraction = this->Seen_ / this->All_;
-  result.OpticalDepth /= this->Seen_;
-  this->FillMeans(parts);
-  Sums sums;
-  for (const Part& part : parts)
+  this->FillResult(facets, parts);
+  if (result.ContrastError > WantedError &&
+      result.LitLuminance >= FaintShare * this->Observer_.DarkLuminance)
   {
-    AddPixels(part.Pattern, part.Blocks, sums);
+    this->GatherVeils();
+    this->FillResult(facets, parts);
   }
-  const auto resampled = sums.Get();
-  result.MeanLuminance = resampled[0].Mean;
-  Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
-  Jackknife(resampled, this->Observer_.DarkLuminance, result.PerceivedContrast,
-    result.PerceivedContrastError);
   return result;
 }
 

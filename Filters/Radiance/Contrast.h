@@ -39,9 +39,13 @@ struct SignMeasurement
   double UnlitLuminance = 0.0;
   /// Mean optical depth between eye and sign.
   double OpticalDepth = 0.0;
+  /// Rays that were gathered for the veil, where the light field knew it too badly.
+  std::size_t Rays = 0;
 };
 
-/// Measures a sign (index into EmitterSet::Signs) from an eye point.
+/// Measures a sign (index into EmitterSet::Signs) from an eye point. Where the light field leaves
+/// its contrast uncertain by more than 0.005, the veil is gathered (View::GatherVeil), unless the
+/// sign is fainter than a hundredth of the dark luminance.
 SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
 

@@ -34,6 +34,13 @@ struct Skipped
   std::atomic<std::size_t> Hidden{0};
 };
 
+/// Counts of what was gathered along rays.
+struct Gathered
+{
+  std::atomic<std::size_t> Views{0};
+  std::atomic<std::size_t> Rays{0};
+};
+
 bool FacesAway(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
 {
   return std::all_of(sign.Cells.begin(), sign.Cells.end(),
@@ -42,7 +49,7 @@ bool FacesAway(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
 }
 
 void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t place,
-  FloorMap& map, Skipped& skipped)
+  FloorMap& map, Skipped& skipped, Gathered& gathered)
 {
   const EmitterSet& lights = view.TheScene().Lights();
   const Medium& smoke = view.TheScene().Smoke();
@@ -83,6 +90,8 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       ++skipped.Hidden;
       continue;
     }
+    gathered.Views += measured.Rays > 0 ? 1 : 0;
+    gathered.Rays += measured.Rays;
     const std::size_t index = place * map.Signs + sign;
     map.Contrast[index] = static_cast<float>(measured.Contrast);
     map.PerceivedContrast[index] = static_cast<float>(measured.PerceivedContrast);
@@ -138,19 +147,22 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
     values->assign(places * map.Signs, 0.0F);
   }
   Skipped skipped;
+  Gathered gathered;
   tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
   const std::size_t last = std::min(places, options.End);
   const std::size_t own = last - std::min(last, options.First);
   ReportedLoop(
     arena, own, 1, progress, [&progress](double done) { progress.Report(done); },
-    [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped); });
+    [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped, gathered); });
   progress.ThrowIfStopped("floor map");
-  const auto say = [&map](const char* what, std::size_t count, const char* why) {
+  const auto say = [&map](const char* what, std::size_t count, const std::string& why) {
     map.Report.push_back({what, static_cast<double>(count), why});
   };
   const std::size_t views = own * map.Signs;
   const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
   say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");
+  say("rays gathered by views of signs", gathered.Rays,
+    "the light field left the contrast of " + std::to_string(gathered.Views) + " uncertain");
   say("places skipped", skipped.Solid, "inside a solid");
   say("views of signs skipped", skipped.Away, "the sign faces away");
   say("views of signs skipped", skipped.Hidden, "the sign is hidden");

@@ -69,8 +69,6 @@ public:
   void Watch(std::vector<bool> sides) { this->Watched_ = std::move(sides); }
   const std::vector<bool>& Watched() const { return this->Watched_; }
 
-  const SourceShape& Shape() const { return this->Shape_; }
-
   const ThickCells& Thick() const { return this->Thick_; }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }

@@ -127,13 +127,13 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
     });
 }
 
-void MultipleSolve::Gather(int band, const LineSweep& sweep, const std::string& name)
+void MultipleSolve::Gather(int band, const std::string& name)
 {
   this->Arena_.execute(
     [&]
     {
       const auto [plates, rays] =
-        PlateGather(this->Scene_, this->Options_, *this->Inside_, sweep.Shape(), this->Field_, band)
+        PlateGather(this->Scene_, this->Options_, *this->Inside_, this->Field_, band)
           .Run(this->Team_, this->Progress_);
       if (plates > 0)
       {
@@ -213,7 +213,7 @@ void MultipleSolve::Band(int band)
   this->Refine(sweeps, probes);
   balance.ScaleSums(balance.Of(sweeps.States()), sweeps.States());
   this->Keep(band, sweeps);
-  this->Gather(band, *sweep, name);
+  this->Gather(band, name);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
     "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");

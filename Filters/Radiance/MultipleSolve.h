@@ -42,7 +42,7 @@ private:
   /// Keeps the means of the sums.
   void Keep(int band, const BatchSweeps& sweeps);
   /// Lets plates gather light that lines would rarely bring.
-  void Gather(int band, const LineSweep& sweep, const std::string& name);
+  void Gather(int band, const std::string& name);
   void Tell(const std::string& name, const BatchSweeps& sweeps, int settling, double error);
   void Say(const std::string& what, double count, const std::string& why)
   {

@@ -1,13 +1,12 @@
 #include "PlateGather.h"
 
-#include "DirectField.h"
 #include "Errors.h"
+#include "IndirectLight.h"
+#include "MultipleShape.h"
 #include "Sampler.h"
-#include "SourceShape.h"
 #include "Team.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -23,14 +22,12 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
-/// Smoke behind this optical depth adds less than single precision shows.
-constexpr double DeepestDepth = 20.0;
 
 } // namespace
 
 PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
-  const DirectField& direct, const SourceShape& shape, LightField& field, int band)
-    : Scene_(scene), Options_(options), Direct_(direct), Shape_(shape), Field_(field), Band_(band)
+  const DirectField& direct, LightField& field, int band)
+    : Scene_(scene), Options_(options), Direct_(direct), Field_(field), Band_(band)
 {
   this->LargestPlate_ = LargestShare * BoxSurface(scene.Upper() - scene.Lower());
 }
@@ -46,13 +43,19 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
       wanted.push_back(sign);
     }
   }
+  if (wanted.empty())
+  {
+    return {0, 0};
+  }
+  const CellShape shape = MultipleShape(this->Scene_, WellKnownMeans(this->Field_, this->Band_));
+  const IndirectLight indirect(this->Scene_, this->Field_, this->Direct_, shape, this->Band_);
   // Signs see each other as the lines left them, whichever is gathered first.
   std::vector<Result> results(wanted.size());
   tbb::parallel_for(std::size_t{0}, team.OwnCount(wanted.size()),
     [&](std::size_t i)
     {
       const std::size_t own = team.OwnItem(i);
-      results[own] = this->Gather(wanted[own], progress);
+      results[own] = this->Gather(wanted[own], indirect, progress);
     });
   progress.ThrowIfStopped("light field");
   team.Complete<Result>(results.size(), [&](std::size_t i, auto&& take) { take(results[i]); });
@@ -84,7 +87,8 @@ bool PlateGather::Wanted(const Sign& sign) const
   return plane && reflects && area <= this->LargestPlate_;
 }
 
-PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progress) const
+PlateGather::Result PlateGather::Gather(
+  std::size_t index, const IndirectLight& indirect, const Progress& progress) const
 {
   const Sign& sign = this->Scene_.Lights().Signs()[index];
   const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
@@ -118,7 +122,7 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
         const auto random = points.Point(ray);
         const Vec3 direction = LambertianDirection(sign.Normal, tangent, random[2], random[3]);
         sums[batch] +=
-          glm::pi<double>() * this->Radiance(base + random[0] * edgeU + random[1] * edgeV,
+          glm::pi<double>() * indirect.Radiance(base + random[0] * edgeU + random[1] * edgeV,
                                 direction, ToUnit(Mix(key + ray)), batch);
       }
       illuminance[batch] = static_cast<float>(sums[batch] / rays);
@@ -132,83 +136,6 @@ PlateGather::Result PlateGather::Gather(std::size_t index, const Progress& progr
     }
   }
   return result;
-}
-
-double PlateGather::Radiance(
-  const Vec3& origin, const Vec3& direction, double place, int batch) const
-{
-  const Medium& smoke = this->Scene_.Smoke();
-  const Hit hit = this->Scene_.Shapes().Intersect(
-    origin, direction, 0.0, std::numeric_limits<double>::infinity());
-  thread_local std::vector<Segment> segments;
-  smoke.WalkSmoke(origin, direction, 0.0, hit.Distance, segments);
-  const double albedo = this->Scene_.Albedo();
-  double depth = 0.0;
-  double sum = 0.0;
-  for (const Segment& segment : segments)
-  {
-    const double extinction =
-      this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(segment.Cell);
-    const double multiple =
-      this->Field_.MultipleFluence[this->Field_.CellIndex(this->Band_, segment.Cell)][batch];
-    const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(segment.Cell);
-    const double mean =
-      this->Field_.DirectFluence[this->Field_.CellIndex(this->Band_, segment.Cell)];
-    // The source varies as it does for lines.
-    const SourceShape::Shaped* shape = this->Shape_.Find(segment.Cell);
-    const double shaped = shape ? multiple + (shape->DirectVaries ? 0.0 : mean) : 0.0;
-    const Vec3 slope =
-      shape ? shaped * Vec3(shape->Change[0], shape->Change[1], shape->Change[2]) : Vec3(0.0);
-    const Vec3 centre = shape ? shape->Centre : Vec3(0.0);
-    double at = segment.Begin;
-    const auto add = [&](double length, double direct)
-    {
-      const double own = extinction * length;
-      const double shift = glm::dot(slope, origin + (at + 0.5 * length) * direction - centre);
-      const double escaping = -std::expm1(-own);
-      const double tilt = SourceShape::Tilt(
-        static_cast<float>(own), own > 0.0 ? static_cast<float>(escaping / own) : 1.0F);
-      const double scattered =
-        escaping * (direct + multiple + shift) - tilt * glm::dot(slope, direction) * length;
-      sum +=
-        std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * scattered + escaping * emitted);
-      depth += own;
-      at += length;
-    };
-    if (this->Direct_.Varies(segment.Cell, this->Band_))
-    {
-      this->Direct_.ForEachPart(
-        segment.Cell, origin, direction, segment.Begin, segment.End, place, this->Band_, add);
-    }
-    else
-    {
-      add(segment.End - segment.Begin, mean);
-    }
-    if (depth > DeepestDepth)
-    {
-      return sum;
-    }
-  }
-  return sum + std::exp(-depth) *
-                 (hit.Found() ? this->Leaving(hit, direction, batch) : this->Scene_.Sky());
-}
-
-double PlateGather::Leaving(const Hit& hit, const Vec3& direction, int batch) const
-{
-  const std::size_t patch = this->Scene_.Patch(hit);
-  const std::size_t side = this->Field_.PatchIndex(this->Band_, patch, hit.Side);
-  double radiance =
-    this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>() *
-    (this->Field_.DirectIlluminance[side] + this->Field_.MultipleIlluminance[side][batch]);
-  const EmitterSet& lights = this->Scene_.Lights();
-  const std::size_t cell = patch - this->Scene_.SurfacePatches();
-  if (hit.Emitter && hit.Side == 0 && lights.LeftToLines(cell))
-  {
-    const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
-    radiance += lights.Cells()[cell].Luminance[this->Band_] *
-                lights.CellLaw(cell).Relative(-direction, cosine);
-  }
-  return radiance;
 }
 
 } // namespace smokevis

@@ -8,7 +8,7 @@ namespace smokevis
 {
 
 class DirectField;
-class SourceShape;
+class IndirectLight;
 class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
@@ -21,7 +21,7 @@ public:
   /// @param direct is the direct light in the smoke
   /// @param field holds all light of the band; receives the new illuminances of fronts
   PlateGather(const Scene& scene, const LightFieldOptions& options, const DirectField& direct,
-    const SourceShape& shape, LightField& field, int band);
+    LightField& field, int band);
 
   /// All plates, in parallel. Returns how many were gathered, and how many rays that took. Throws
   /// Error when it is stopped.
@@ -34,15 +34,11 @@ private:
     Lanes Illuminance;
     std::size_t Rays = 0;
   };
-  Result Gather(std::size_t index, const Progress& progress) const;
-  /// Light that comes in against a ray in one batch, without what emitters send directly [cd/m2].
-  double Radiance(const Vec3& origin, const Vec3& direction, double place, int batch) const;
-  double Leaving(const Hit& hit, const Vec3& direction, int batch) const;
+  Result Gather(std::size_t index, const IndirectLight& indirect, const Progress& progress) const;
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;
   const DirectField& Direct_;
-  const SourceShape& Shape_;
   LightField& Field_;
   int Band_;
   /// A sign whose area is larger is a wall [m2].

@@ -123,6 +123,28 @@ Lanes PlateVeil::At(const glm::dvec2& place) const
   return veil;
 }
 
+std::size_t PlateVeil::Gather(
+  const View& view, const Sign& sign, const Vec3& eye, int band, double wanted)
+{
+  const Vec3 to = OnPlate(sign, 0.5, 0.5) - eye;
+  const double distance = glm::length(to);
+  const GatheredVeil gathered =
+    view.GatherVeil(eye, to / distance, std::max(0.0, distance - this->Reach_), band, wanted);
+  const Lanes middle = this->Far_[1][1].VeilMultiple;
+  if (StandardError(gathered.Multiple) < StandardError(middle))
+  {
+    for (auto& row : this->Far_)
+    {
+      for (RayLight& light : row)
+      {
+        Add(light.VeilMultiple, gathered.Multiple, 1.0F);
+        Add(light.VeilMultiple, middle, -1.0F);
+      }
+    }
+  }
+  return gathered.Rays;
+}
+
 RayLight PlateVeil::Trace(
   const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v, bool far) const
 {

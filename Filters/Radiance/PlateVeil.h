@@ -41,6 +41,12 @@ public:
   /// The batches of the veil at a place [cd/m2].
   Lanes At(const glm::dvec2& place) const;
 
+  /// Gathers the level of what is multiply scattered far from the plate (View::GatherVeil) and
+  /// takes it where it is known better so. How the veil varies over the plate stays as it is.
+  /// Returns the number of rays.
+  /// @param wanted standard error [cd/m2]
+  std::size_t Gather(const View& view, const Sign& sign, const Vec3& eye, int band, double wanted);
+
 private:
   /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of
   /// that.

@@ -28,38 +28,24 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
     : Open_(&scene.Open()), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
 {
   const Medium& smoke = scene.Smoke();
-  std::vector<std::int32_t> places(extinction.size(), -1);
-  std::int32_t count = 0;
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
     const double depth = extinction[i] * smoke.MeanChord(cell);
     if (scene.Albedo() * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
     {
-      places[i] = count++;
+      this->Cells_.push_back({cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}});
     }
   }
-  if (count == 0)
-  {
-    return;
-  }
-  this->Places_ = std::move(places);
-  this->Cells_.resize(count);
-  this->Measures_.resize(count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, extinction.size(), 1024),
+  this->Measures_.resize(this->Cells_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, this->Cells_.size(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
-        if (this->Places_[i] < 0)
-        {
-          continue;
-        }
-        const auto cell = static_cast<std::int64_t>(i);
+        const std::int64_t cell = this->Cells_[i].Index;
         const Vec3 half = 0.5 * smoke.CellSize(cell);
-        this->Cells_[this->Places_[i]] = {
-          cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}};
-        Measures& own = this->Measures_[this->Places_[i]];
+        Measures& own = this->Measures_[i];
         for (int axis = 0; axis < 3; ++axis)
         {
           std::array<double, 2> centre;
@@ -82,7 +68,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
   {
     return;
   }
-  const std::size_t cells = this->Places_.size();
+  const std::size_t cells = batches.front().FluenceSum.size();
   std::vector<float> means(cells);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 4096),
     [&](const tbb::blocked_range<std::size_t>& range)

@@ -35,7 +35,7 @@ public:
   void Follow(const std::vector<BatchState>& batches);
 
   /// Whether no cell is thick enough for its shape to matter.
-  bool Flat() const { return this->Places_.empty(); }
+  bool Flat() const { return this->Cells_.empty(); }
   /// Relative change of a cell's source along each axis [1/m].
   using Slope = std::array<float, 3>;
   /// A cell whose source has a shape.
@@ -48,12 +48,6 @@ public:
     Slope Change{};
   };
   const std::vector<Shaped>& Cells() const { return this->Cells_; }
-  /// Its shape, or none.
-  const Shaped* Find(std::size_t cell) const
-  {
-    const std::int32_t place = this->Places_.empty() ? -1 : this->Places_[cell];
-    return place < 0 ? nullptr : &this->Cells_[place];
-  }
   /// What a source adds that rises along a piece of a ray by 1 and is 0 in its middle, at the
   /// piece's end; at its beginning, looking along the ray, as much is missing.
   /// @param depth of the piece
@@ -79,8 +73,6 @@ private:
   const float* DirectFluence_ = nullptr;
   std::vector<Shaped> Cells_;
   std::vector<Measures> Measures_;
-  /// Place of each cell among them, or -1.
-  std::vector<std::int32_t> Places_;
 };
 
 } // namespace smokevis

@@ -1,13 +1,14 @@
 #include "View.h"
 
 #include "DirectField.h"
+#include "ExponentialMean.h"
+#include "MultipleShape.h"
 #include "ShapeNoise.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
-#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -17,10 +18,6 @@ namespace
 
 /// Smoke behind this optical depth adds less than single precision shows.
 constexpr double DeepestDepth = 60.0;
-/// Relative standard error of a cell's multiply scattered fluence above which shapes do not follow
-/// it. A single batch may then bring most of that light, and the first order of its noise
-/// (ShapeNoise), many times the light of brighter cells beside it, would be all that is seen there.
-constexpr double MostNoise = 0.3;
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
@@ -57,19 +54,10 @@ struct View::Implementation
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
-      const Lanes* const lanes = field.MultipleFluence.data() + field.CellIndex(band, 0);
-      // 0 where shapes do not follow the light.
-      std::vector<float> means(field.Cells);
-      tbb::parallel_for(std::size_t{0}, field.Cells,
-        [&](std::size_t cell)
-        {
-          const double mean = Mean(lanes[cell]);
-          means[cell] =
-            StandardError(lanes[cell]) < MostNoise * mean ? static_cast<float>(mean) : 0.0F;
-        });
-      this->MultipleShape[band] =
-        CellShape(scene, [&means](std::int64_t, std::int64_t cell) { return means[cell]; });
-      this->MultipleNoise[band] = ShapeNoise(scene, lanes, means, this->MultipleShape[band]);
+      const std::vector<float> means = WellKnownMeans(field, band);
+      this->MultipleShape[band] = smokevis::MultipleShape(scene, means);
+      this->MultipleNoise[band] = ShapeNoise(scene,
+        field.MultipleFluence.data() + field.CellIndex(band, 0), means, this->MultipleShape[band]);
     }
     this->FindLeak();
   }
@@ -153,10 +141,8 @@ RayLight View::TraceVeil(
       const double passed = thin ? 1.0 - smaller : smaller;
       if (albedo > 0.0)
       {
-        // Where a source that varies linearly along the piece takes its mean.
-        const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
-                                         : 1.0 / extinction - length * passed / lost;
-        const Vec3 point = origin + (segment.Begin + mean) * direction;
+        const Vec3 point =
+          origin + (segment.Begin + length * MeanPlace(depth, lost, passed)) * direction;
         const double weight = scatter * ahead * lost;
         light.VeilDirect += weight * self.DirectFluence.Smooth(segment.Cell, point, band);
         self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
@@ -172,6 +158,16 @@ RayLight View::TraceVeil(
     light.OpticalDepth += depth;
   }
   return light;
+}
+
+GatheredVeil View::GatherVeil(
+  const Vec3& origin, const Vec3& direction, double end, int band, double wanted) const
+{
+  const Implementation& self = *this->Implementation_;
+  const IndirectLight indirect(
+    *this->Scene_, *this->Field_, self.DirectFluence, self.MultipleShape[band], band);
+  return VeilGather(*this->Scene_, *this->Field_, indirect, band, origin, direction, end)
+    .Run(wanted);
 }
 
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const

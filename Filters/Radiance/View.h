@@ -3,6 +3,7 @@
 
 #include "LightField.h"
 #include "Scene.h"
+#include "VeilGather.h"
 
 #include <memory>
 
@@ -54,6 +55,12 @@ public:
   /// optical depth is that of the ray from its origin to `end`.
   RayLight TraceVeil(
     const Vec3& origin, const Vec3& direction, double begin, double end, int band) const;
+
+  /// Multiply scattered light that the smoke up to `end` sends to a ray's origin, gathered anew: it
+  /// stands for RayLight::VeilMultiple where that is known too badly.
+  /// @param wanted standard error [cd/m2]; it may not be reached
+  GatheredVeil GatherVeil(
+    const Vec3& origin, const Vec3& direction, double end, int band, double wanted) const;
 
   /// Luminance that leaves an emitter cell towards a direction (unit, away from the plate), emitted
   /// and reflected [cd/m2], before any smoke.

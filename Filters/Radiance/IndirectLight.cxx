@@ -1,0 +1,100 @@
+#include "IndirectLight.h"
+
+#include "DirectField.h"
+#include "ExponentialMean.h"
+
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Smoke behind this optical depth adds less than single precision shows.
+constexpr double DeepestDepth = 20.0;
+
+} // namespace
+
+IndirectLight::IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
+  const CellShape& shape, int band)
+    : Scene_(scene), Field_(field), Direct_(direct), Shape_(shape), Band_(band)
+{
+}
+
+double IndirectLight::Radiance(
+  const Vec3& origin, const Vec3& direction, double place, int batch) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Hit hit = this->Scene_.Shapes().Intersect(
+    origin, direction, 0.0, std::numeric_limits<double>::infinity());
+  thread_local std::vector<Segment> segments;
+  smoke.WalkSmoke(origin, direction, 0.0, hit.Distance, segments);
+  const double albedo = this->Scene_.Albedo();
+  double depth = 0.0;
+  double sum = 0.0;
+  for (const Segment& segment : segments)
+  {
+    const std::int64_t cell = segment.Cell;
+    const double extinction = this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(cell);
+    const std::size_t index = this->Field_.CellIndex(this->Band_, cell);
+    const double multiple = this->Field_.MultipleFluence[index][batch];
+    const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(cell);
+    double begin = segment.Begin;
+    const auto add = [&](double length, const auto& direct)
+    {
+      const double own = extinction * length;
+      const double lost = -std::expm1(-own);
+      const Vec3 point = origin + (begin + length * MeanPlace(own, lost, 1.0 - lost)) * direction;
+      const double fluence = direct(point) + multiple * this->Shape_.Value(cell, point);
+      sum += std::exp(-depth) * lost * (albedo / (4.0 * glm::pi<double>()) * fluence + emitted);
+      depth += own;
+      begin += length;
+    };
+    if (this->Direct_.Varies(cell, this->Band_))
+    {
+      this->Direct_.ForEachPart(cell, origin, direction, segment.Begin, segment.End, place,
+        this->Band_,
+        [&add](double length, double fluence)
+        { add(length, [fluence](const Vec3&) { return fluence; }); });
+    }
+    else if (this->Direct_.Near(cell))
+    {
+      add(segment.End - segment.Begin,
+        [&](const Vec3&) { return this->Field_.DirectFluence[index]; });
+    }
+    else
+    {
+      add(segment.End - segment.Begin,
+        [&](const Vec3& point) { return this->Direct_.Smooth(cell, point, this->Band_); });
+    }
+    if (depth > DeepestDepth)
+    {
+      return sum;
+    }
+  }
+  return sum + std::exp(-depth) *
+                 (hit.Found() ? this->Leaving(hit, direction, batch) : this->Scene_.Sky());
+}
+
+double IndirectLight::Leaving(const Hit& hit, const Vec3& direction, int batch) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const std::size_t side = this->Field_.PatchIndex(this->Band_, patch, hit.Side);
+  double radiance =
+    this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>() *
+    (this->Field_.DirectIlluminance[side] + this->Field_.MultipleIlluminance[side][batch]);
+  const EmitterSet& lights = this->Scene_.Lights();
+  const std::size_t cell = patch - this->Scene_.SurfacePatches();
+  if (hit.Emitter && hit.Side == 0 && lights.LeftToLines(cell))
+  {
+    const double cosine = std::abs(glm::dot(direction, lights.CellNormal(cell)));
+    radiance += lights.Cells()[cell].Luminance[this->Band_] *
+                lights.CellLaw(cell).Relative(-direction, cosine);
+  }
+  return radiance;
+}
+
+} // namespace smokevis
