@@ -1,0 +1,100 @@
+// The veil gathered along rays through a light field that is known.
+#include "View.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr double SkyLuminance = 3.0;
+
+/// White smoke of changing density under an even sky.
+SceneDescription WhiteCloud()
+{
+  SceneDescription description;
+  SmokeGrid grid;
+  grid.Name = "cloud";
+  grid.Nodes = {{{0.0, 1.0, 2.5, 3.0}, {0.0, 1.0, 2.0}, {0.0, 1.0}}};
+  grid.Extinction = {0.2F, 3.0F, 0.7F, 0.0F, 1.5F, 0.4F};
+  description.Albedo = 1.0;
+  description.Sky = SkyLuminance;
+  description.Grids = {grid};
+  return description;
+}
+
+/// A field of that scene with the same fluence everywhere, all of it multiply scattered.
+std::shared_ptr<LightField> EvenField(const Scene& scene, double fluence)
+{
+  auto field = std::make_shared<LightField>();
+  field->Cells = scene.Smoke().Cells();
+  field->Patches = scene.Patches();
+  field->DirectFluence.assign(field->Cells, 0.0F);
+  Lanes even;
+  std::fill(std::begin(even.Value), std::end(even.Value), static_cast<float>(fluence));
+  field->MultipleFluence.assign(field->Cells, even);
+  field->DirectIlluminance.assign(2 * field->Patches, 0.0F);
+  field->MultipleIlluminance.assign(2 * field->Patches, Lanes());
+  return field;
+}
+
+// Smoke that loses nothing under an even sky is as bright as the sky in all directions, whatever
+// its density: the veil hides the share of the sky that it takes the place of.
+TEST(VeilGather, WhiteCloudUnderEvenSky)
+{
+  const auto scene = std::make_shared<const Scene>(WhiteCloud());
+  const View view(scene, EvenField(*scene, 4.0 * std::numbers::pi * SkyLuminance));
+  const Vec3 origin(-0.5, 0.3, 0.4);
+  const Vec3 direction = glm::normalize(Vec3(1.0, 0.3, 0.05));
+  for (const double end : {1.0, 2.2, 9.0})
+  {
+    const double depth = scene->Smoke().OpticalDepth(origin, direction, 0.0, end);
+    const GatheredVeil veil = view.GatherVeil(origin, direction, end, 0, 0.0);
+    EXPECT_GT(veil.Rays, 0U);
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      EXPECT_NEAR(veil.Multiple[batch] / (SkyLuminance * -std::expm1(-depth)), 1.0, 2e-6)
+        << "end " << end << ", batch " << batch;
+    }
+  }
+}
+
+// A field that is dark but for the sky sends on what the sky sends it: light of the first order
+// through a thin cloud is the sky's, less what the cloud takes of it.
+TEST(VeilGather, FindsLightThatTheFieldDoesNotKnow)
+{
+  SceneDescription description = WhiteCloud();
+  for (float& extinction : description.Grids[0].Extinction)
+  {
+    extinction *= 1e-4F;
+  }
+  const auto scene = std::make_shared<const Scene>(description);
+  const View view(scene, EvenField(*scene, 0.0));
+  const Vec3 origin(-0.5, 0.3, 0.4);
+  const Vec3 direction(1.0, 0.0, 0.0);
+  const double depth = scene->Smoke().OpticalDepth(origin, direction, 0.0, 9.0);
+  const GatheredVeil veil = view.GatherVeil(origin, direction, 9.0, 0, 0.0);
+  EXPECT_NEAR(Mean(veil.Multiple) / (SkyLuminance * depth), 1.0, 1e-3);
+}
+
+// Rays stop where they are good enough, and none are drawn where there is no smoke to send light.
+TEST(VeilGather, DrawsNoMoreRaysThanAreWanted)
+{
+  const auto scene = std::make_shared<const Scene>(WhiteCloud());
+  const View view(scene, EvenField(*scene, 1.0));
+  const Vec3 origin(-0.5, 0.3, 0.4);
+  const Vec3 direction(1.0, 0.0, 0.0);
+  const GatheredVeil all = view.GatherVeil(origin, direction, 9.0, 0, 0.0);
+  const GatheredVeil rough = view.GatherVeil(origin, direction, 9.0, 0, 1e9);
+  EXPECT_LT(rough.Rays, all.Rays);
+  EXPECT_NEAR(Mean(rough.Multiple), Mean(all.Multiple), 4.0 * StandardError(rough.Multiple) + 1e-9);
+  const GatheredVeil none = view.GatherVeil(origin, -direction, 9.0, 0, 0.0);
+  EXPECT_EQ(none.Rays, 0U);
+  EXPECT_EQ(Mean(none.Multiple), 0.0);
+}
+
+} // namespace
