@@ -2,6 +2,7 @@
 
 #include "DirectField.h"
 #include "ExponentialMean.h"
+#include "SourceShape.h"
 
 #include <cmath>
 
@@ -42,13 +43,16 @@ double IndirectLight::Radiance(
     const std::size_t index = this->Field_.CellIndex(this->Band_, cell);
     const double multiple = this->Field_.MultipleFluence[index][batch];
     const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(cell);
+    // As for lines: what rays gather balances what they bring.
+    const bool flat = extinction * smoke.MeanChord(cell) >= SourceShape::ThickestDepth;
     double begin = segment.Begin;
     const auto add = [&](double length, const auto& direct)
     {
       const double own = extinction * length;
       const double lost = -std::expm1(-own);
       const Vec3 point = origin + (begin + length * MeanPlace(own, lost, 1.0 - lost)) * direction;
-      const double fluence = direct(point) + multiple * this->Shape_.Value(cell, point);
+      const double fluence =
+        direct(point) + multiple * (flat ? 1.0 : this->Shape_.Value(cell, point));
       sum += std::exp(-depth) * lost * (albedo / (4.0 * glm::pi<double>()) * fluence + emitted);
       depth += own;
       begin += length;
@@ -60,7 +64,7 @@ double IndirectLight::Radiance(
         [&add](double length, double fluence)
         { add(length, [fluence](const Vec3&) { return fluence; }); });
     }
-    else if (this->Direct_.Near(cell))
+    else if (flat || this->Direct_.Near(cell))
     {
       add(segment.End - segment.Begin,
         [&](const Vec3&) { return this->Field_.DirectFluence[index]; });

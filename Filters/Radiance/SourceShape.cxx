@@ -16,10 +16,8 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth across a cell between which its source has a shape: a flat one errs by a
-/// thousandth in thinner cells; thicker ones would need millions of sweeps to settle.
+/// Optical depth across a cell below which a flat source errs by a thousandth at most.
 constexpr double ThinnestDepth = 0.05;
-constexpr double ThickestDepth = 4.0;
 
 } // namespace
 

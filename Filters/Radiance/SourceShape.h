@@ -24,6 +24,10 @@ struct LightField;
 class SourceShape
 {
 public:
+  /// Optical depth across a cell above which its source is flat: it would need millions of sweeps
+  /// to settle.
+  static constexpr double ThickestDepth = 4.0;
+
   SourceShape() = default;
   /// @param field holds the direct light of all cells, direct that inside the cells; both must
   /// outlive this
