@@ -39,6 +39,20 @@ public:
       slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y + slope.Slope[2] * from.z);
   }
 
+  /// What a field of mean 1 in the cell, as a source, sends out of a piece of a ray at its
+  /// beginning; one of 1 everywhere sends 1 - exp(-depth).
+  /// @param step from the beginning of the piece to its end
+  /// @param depth of the piece
+  double Emerging(std::int64_t cell, const Vec3& begin, const Vec3& step, double depth) const
+  {
+    double fall = depth;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fall -= this->LogarithmSlope(cell, axis) * step[axis];
+    }
+    return depth * this->Value(cell, begin) * (fall == 0.0 ? 1.0 : -std::expm1(-fall) / fall);
+  }
+
   /// Slope of the logarithm along an axis in a cell [1/m].
   double LogarithmSlope(std::int64_t cell, int axis) const
   {

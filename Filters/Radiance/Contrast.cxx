@@ -16,10 +16,8 @@ namespace
 
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
-/// Standard error of the contrast above which the veil is gathered, and the share of it that what
-/// is gathered may leave.
-constexpr double WantedError = 0.005;
-constexpr double GatheredShare = 0.5;
+/// Standard error of the contrast above which the veil is gathered.
+constexpr double UncertainContrast = 0.005;
 /// A sign whose lit parts are fainter than this share of the observer's own noise is not worth
 /// gathering for: it stands out by a hundredth at most.
 constexpr double FaintShare = 0.01;
@@ -197,7 +195,6 @@ private:
   void FillMeans(const std::vector<Part>& parts);
   /// Contrasts and all that depends on the veil.
   void FillResult(const std::vector<Facet>& facets, std::vector<Part>& parts);
-  void GatherVeils();
 
   const View& View_;
   const EmitterSet& Lights_;
@@ -423,18 +420,6 @@ void SignLook::FillResult(const std::vector<Facet>& facets, std::vector<Part>& p
     result.PerceivedContrastError);
 }
 
-void SignLook::GatherVeils()
-{
-  // Contrast is deviation over mean: a veil moves it as it moves the mean.
-  const double wanted = GatheredShare * WantedError * this->Result_.MeanLuminance /
-                        std::max(WantedError, this->Result_.Contrast);
-  for (int band = 0; band < this->Bands_; ++band)
-  {
-    this->Result_.Rays +=
-      this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band, wanted);
-  }
-}
-
 SignMeasurement SignLook::Measure()
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, this->Plate_, this->Eye_);
@@ -462,10 +447,13 @@ SignMeasurement SignLook::Measure()
   result.InView = true;
   result.VisibleFraction = this->Seen_ / this->All_;
   this->FillResult(facets, parts);
-  if (result.ContrastError > WantedError &&
+  if (result.ContrastError > UncertainContrast &&
       result.LitLuminance >= FaintShare * this->Observer_.DarkLuminance)
   {
-    this->GatherVeils();
+    for (int band = 0; band < this->Bands_; ++band)
+    {
+      result.Rays += this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band);
+    }
     this->FillResult(facets, parts);
   }
   return result;

@@ -29,6 +29,13 @@ public:
     return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
                                       : 0.0;
   }
+  /// What a piece of a ray sends out at its beginning of that fluence (CellShape::Emerging) [lx].
+  double SmoothEmerging(
+    std::int64_t cell, const Vec3& begin, const Vec3& step, double depth, int band) const
+  {
+    const double mean = this->Means_[band * this->Cells_ + cell];
+    return mean > 0.0 ? mean * this->Shapes_[band].Emerging(cell, begin, step, depth) : 0.0;
+  }
   /// Whether the direct fluence varies inside a cell by more than a flat source may.
   bool Varies(std::int64_t cell, int band) const
   {

@@ -28,13 +28,4 @@ inline double Langevin(double h)
          (34459425.0 + square * (4729725.0 + square * (135135.0 + square * (990.0 + square))));
 }
 
-/// Where along a piece of a ray a source that varies linearly takes the mean of what reaches the
-/// piece's beginning, as a share of its length.
-/// @param lost share of light that the piece keeps, 1 - exp(-depth), and `passed` the rest, both to
-/// their last digits
-inline double MeanPlace(double depth, double lost, double passed)
-{
-  return depth < 1e-4 ? 0.5 * (1.0 - depth / 6.0) : 1.0 / depth - passed / lost;
-}
-
 } // namespace smokevis

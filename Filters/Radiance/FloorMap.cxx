@@ -155,14 +155,14 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
     arena, own, 1, progress, [&progress](double done) { progress.Report(done); },
     [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped, gathered); });
   progress.ThrowIfStopped("floor map");
-  const auto say = [&map](const char* what, std::size_t count, const std::string& why) {
+  const auto say = [&map](const char* what, std::size_t count, const char* why) {
     map.Report.push_back({what, static_cast<double>(count), why});
   };
   const std::size_t views = own * map.Signs;
   const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
   say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");
-  say("rays gathered by views of signs", gathered.Rays,
-    "the light field left the contrast of " + std::to_string(gathered.Views) + " uncertain");
+  say("views of signs gathered for", gathered.Views, "the light field left the contrast uncertain");
+  say("rays gathered by views of signs", gathered.Rays, "they tell the veil in the dark");
   say("places skipped", skipped.Solid, "inside a solid");
   say("views of signs skipped", skipped.Away, "the sign faces away");
   say("views of signs skipped", skipped.Hidden, "the sign is hidden");

@@ -1,23 +1,15 @@
 #include "IndirectLight.h"
 
 #include "DirectField.h"
-#include "ExponentialMean.h"
 #include "SourceShape.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/constants.hpp>
 
 namespace smokevis
 {
-
-namespace
-{
-
-/// Smoke behind this optical depth adds less than single precision shows.
-constexpr double DeepestDepth = 20.0;
-
-} // namespace
 
 IndirectLight::IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
   const CellShape& shape, int band)
@@ -46,35 +38,37 @@ double IndirectLight::Radiance(
     // As for lines: what rays gather balances what they bring.
     const bool flat = extinction * smoke.MeanChord(cell) >= SourceShape::ThickestDepth;
     double begin = segment.Begin;
+    // direct(begin, step, depth, lost): fluence that emerges at the beginning of a part.
     const auto add = [&](double length, const auto& direct)
     {
       const double own = extinction * length;
       const double lost = -std::expm1(-own);
-      const Vec3 point = origin + (begin + length * MeanPlace(own, lost, 1.0 - lost)) * direction;
+      const Vec3 from = origin + begin * direction;
+      const Vec3 step = length * direction;
       const double fluence =
-        direct(point) + multiple * (flat ? 1.0 : this->Shape_.Value(cell, point));
-      sum += std::exp(-depth) * lost * (albedo / (4.0 * glm::pi<double>()) * fluence + emitted);
+        direct(from, step, own, lost) +
+        multiple * (flat ? lost : this->Shape_.Emerging(cell, from, step, own));
+      sum += std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * fluence + lost * emitted);
       depth += own;
       begin += length;
     };
+    const auto even = [](double fluence)
+    { return [fluence](const Vec3&, const Vec3&, double, double lost) { return lost * fluence; }; };
     if (this->Direct_.Varies(cell, this->Band_))
     {
       this->Direct_.ForEachPart(cell, origin, direction, segment.Begin, segment.End, place,
-        this->Band_,
-        [&add](double length, double fluence)
-        { add(length, [fluence](const Vec3&) { return fluence; }); });
+        this->Band_, [&](double length, double fluence) { add(length, even(fluence)); });
     }
     else if (flat || this->Direct_.Near(cell))
     {
-      add(segment.End - segment.Begin,
-        [&](const Vec3&) { return this->Field_.DirectFluence[index]; });
+      add(segment.End - segment.Begin, even(this->Field_.DirectFluence[index]));
     }
     else
     {
-      add(segment.End - segment.Begin,
-        [&](const Vec3& point) { return this->Direct_.Smooth(cell, point, this->Band_); });
+      add(segment.End - segment.Begin, [&](const Vec3& from, const Vec3& step, double own, double)
+        { return this->Direct_.SmoothEmerging(cell, from, step, own, this->Band_); });
     }
-    if (depth > DeepestDepth)
+    if (depth > DeepestVeil)
     {
       return sum;
     }

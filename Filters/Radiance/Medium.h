@@ -14,6 +14,9 @@
 namespace smokevis
 {
 
+/// Smoke behind this optical depth adds less to what is seen than single precision shows.
+inline constexpr double DeepestVeil = 60.0;
+
 /// One rectilinear grid of smoke, for example one FDS mesh.
 struct SmokeGrid
 {

@@ -30,7 +30,7 @@ std::vector<float> WellKnownMeans(const LightField& field, int band)
   return means;
 }
 
-CellShape MultipleShape(const Scene& scene, const std::vector<float>& means)
+CellShape ShapeOfMultiple(const Scene& scene, const std::vector<float>& means)
 {
   if (scene.Albedo() == 0.0)
   {

@@ -1,6 +1,5 @@
 #include "PlateGather.h"
 
-#include "Errors.h"
 #include "IndirectLight.h"
 #include "MultipleShape.h"
 #include "Sampler.h"
@@ -47,7 +46,7 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
   {
     return {0, 0};
   }
-  const CellShape shape = MultipleShape(this->Scene_, WellKnownMeans(this->Field_, this->Band_));
+  const CellShape shape = ShapeOfMultiple(this->Scene_, WellKnownMeans(this->Field_, this->Band_));
   const IndirectLight indirect(this->Scene_, this->Field_, this->Direct_, shape, this->Band_);
   // Signs see each other as the lines left them, whichever is gathered first.
   std::vector<Result> results(wanted.size());

@@ -1,6 +1,7 @@
 #include "PlateVeil.h"
 
 #include "GaussNodes.h"
+#include "VeilGather.h"
 
 #include <algorithm>
 
@@ -12,6 +13,9 @@ namespace
 
 /// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
 constexpr std::size_t MostColumns = 16;
+/// Errors of sixteen batches are known to a fifth: what is gathered is clearly better where its
+/// error is below this share of the other.
+constexpr double BetterShare = 0.7;
 
 } // namespace
 
@@ -123,22 +127,30 @@ Lanes PlateVeil::At(const glm::dvec2& place) const
   return veil;
 }
 
-std::size_t PlateVeil::Gather(
-  const View& view, const Sign& sign, const Vec3& eye, int band, double wanted)
+std::size_t PlateVeil::Gather(const View& view, const Sign& sign, const Vec3& eye, int band)
 {
-  const Vec3 to = OnPlate(sign, 0.5, 0.5) - eye;
-  const double distance = glm::length(to);
-  const GatheredVeil gathered =
-    view.GatherVeil(eye, to / distance, std::max(0.0, distance - this->Reach_), band, wanted);
-  const Lanes middle = this->Far_[1][1].VeilMultiple;
-  if (StandardError(gathered.Multiple) < StandardError(middle))
+  std::vector<SightLine> lines;
+  Lanes known;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec3 to = OnPlate(sign, Nodes3[i], Nodes3[j]) - eye;
+      const double distance = glm::length(to);
+      const double weight = Weights3[i] * Weights3[j];
+      lines.push_back({to / distance, this->FarEnd(distance), weight});
+      Add(known, this->Far_[j][i].VeilMultiple, static_cast<float>(weight));
+    }
+  }
+  const GatheredVeil gathered = view.GatherVeil(eye, lines, band);
+  if (StandardError(gathered.Multiple) < BetterShare * StandardError(known))
   {
     for (auto& row : this->Far_)
     {
       for (RayLight& light : row)
       {
         Add(light.VeilMultiple, gathered.Multiple, 1.0F);
-        Add(light.VeilMultiple, middle, -1.0F);
+        Add(light.VeilMultiple, known, -1.0F);
       }
     }
   }
@@ -151,7 +163,7 @@ RayLight PlateVeil::Trace(
   const Vec3 to = OnPlate(sign, u, v) - eye;
   const double distance = glm::length(to);
   const Vec3 direction = to / distance;
-  const double border = std::max(0.0, distance - this->Reach_);
+  const double border = this->FarEnd(distance);
   return far ? view.TraceVeil(eye, direction, 0.0, border, band)
              : view.TraceVeil(eye, direction, border, distance, band);
 }

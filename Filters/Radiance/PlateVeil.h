@@ -3,6 +3,7 @@
 
 #include "View.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace smokevis
@@ -42,16 +43,18 @@ public:
   Lanes At(const glm::dvec2& place) const;
 
   /// Gathers the level of what is multiply scattered far from the plate (View::GatherVeil) and
-  /// takes it where it is known better so. How the veil varies over the plate stays as it is.
-  /// Returns the number of rays.
-  /// @param wanted standard error [cd/m2]
-  std::size_t Gather(const View& view, const Sign& sign, const Vec3& eye, int band, double wanted);
+  /// takes it where it is clearly known better so. How the veil varies over the plate stays as it
+  /// is. Returns the number of rays.
+  std::size_t Gather(const View& view, const Sign& sign, const Vec3& eye, int band);
 
 private:
   /// Light of the smoke on the way to a place on the plate: of all but the end of the way, or of
   /// that.
   RayLight Trace(const View& view, const Sign& sign, const Vec3& eye, int band, double u, double v,
     bool far) const;
+
+  /// Length of the far part of a way to the plate [m].
+  double FarEnd(double distance) const { return std::max(0.0, distance - this->Reach_); }
 
   const PlateColumns& Columns_;
   const PlateColumns& Rows_;

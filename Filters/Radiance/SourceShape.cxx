@@ -26,22 +26,25 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
     : Open_(&scene.Open()), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
 {
   const Medium& smoke = scene.Smoke();
+  std::vector<std::int64_t> shaped;
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
     const double depth = extinction[i] * smoke.MeanChord(cell);
     if (scene.Albedo() * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
     {
-      this->Cells_.push_back({cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}});
+      shaped.push_back(cell);
     }
   }
-  this->Measures_.resize(this->Cells_.size());
+  this->Cells_.resize(shaped.size());
+  this->Measures_.resize(shaped.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, this->Cells_.size(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
-        const std::int64_t cell = this->Cells_[i].Index;
+        const std::int64_t cell = shaped[i];
+        this->Cells_[i] = {cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         Measures& own = this->Measures_[i];
         for (int axis = 0; axis < 3; ++axis)

@@ -1,4 +1,4 @@
-// The veil of multiply scattered light along one line of sight, gathered along rays.
+// The veil of multiply scattered light before an eye, gathered along rays.
 #pragma once
 
 #include "IndirectLight.h"
@@ -9,38 +9,51 @@
 namespace smokevis
 {
 
+/// A line of sight from the eye.
+struct SightLine
+{
+  /// Unit direction.
+  Vec3 Direction;
+  /// Length [m].
+  double End = 0.0;
+  /// Share in the mean over several lines.
+  double Weight = 1.0;
+};
+
 /// A veil and what it took.
 struct GatheredVeil
 {
   /// Batches of the veil [cd/m2].
   Lanes Multiple;
-  /// Rays of all batches.
+  /// Rays of all batches; none where no smoke scatters.
   std::size_t Rays = 0;
 };
 
 /// In the dark, few random lines bring light to the cells that an eye looks through, so that the
-/// light field knows their light badly. Rays from places along the line of sight tell it better:
-/// what each brings is the mean over all cells that it passes. A batch has rays of its own through
-/// its own light, so that the batches stay independent.
+/// light field knows their light badly. Rays from places along the lines of sight tell it better:
+/// what each brings is a mean over all cells that it passes. A batch has rays of its own through
+/// its own light, so that the batches stay independent but for the shapes inside cells. There are
+/// always as many rays: those that happen to agree are not the best ones.
 class VeilGather
 {
 public:
   /// @param field is what indirect has the light of, in a band
-  /// @param end of the line of sight [m]
   VeilGather(const Scene& scene, const LightField& field, const IndirectLight& indirect, int band,
-    const Vec3& origin, const Vec3& direction, double end);
+    const Vec3& origin, const std::vector<SightLine>& lines);
 
-  /// Gathers until the standard error is as small as wanted [cd/m2] or most rays are drawn.
-  GatheredVeil Run(double wanted) const;
+  GatheredVeil Run() const;
 
 private:
-  /// A piece of the line inside one cell.
+  /// A piece of a line inside one cell.
   struct Piece
   {
+    Vec3 Direction;
     double Begin = 0.0;
     double Length = 0.0;
     double Extinction = 0.0;
-    /// Luminance at the eye over fluence.
+    /// Share of the light from behind that is lost.
+    double Lost = 0.0;
+    /// Mean luminance at the eye over fluence.
     double Weight = 0.0;
     /// Share of the rays that begin here.
     double Share = 0.0;
@@ -52,9 +65,9 @@ private:
   double Sample(int batch, const std::array<double, 4>& random) const;
 
   const IndirectLight& Indirect_;
-  Vec3 Origin_, Direction_;
+  Vec3 Origin_;
   std::vector<Piece> Pieces_;
-  /// Of the line and of the field, so that rays of different ones are independent.
+  /// Of the lines and of the field, so that rays of different ones are independent.
   std::uint64_t Key_ = 0;
 };
 

@@ -1,9 +1,9 @@
 #include "View.h"
 
 #include "DirectField.h"
-#include "ExponentialMean.h"
 #include "MultipleShape.h"
 #include "ShapeNoise.h"
+#include "VeilGather.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,6 @@ namespace smokevis
 namespace
 {
 
-/// Smoke behind this optical depth adds less than single precision shows.
-constexpr double DeepestDepth = 60.0;
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
@@ -55,7 +53,7 @@ struct View::Implementation
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
       const std::vector<float> means = WellKnownMeans(field, band);
-      this->MultipleShape[band] = smokevis::MultipleShape(scene, means);
+      this->MultipleShape[band] = ShapeOfMultiple(scene, means);
       this->MultipleNoise[band] = ShapeNoise(scene,
         field.MultipleFluence.data() + field.CellIndex(band, 0), means, this->MultipleShape[band]);
     }
@@ -132,7 +130,7 @@ RayLight View::TraceVeil(
     const double extinction = smoke.Extinction(segment.Cell) * scale;
     const double length = segment.End - segment.Begin;
     const double depth = extinction * length;
-    if (depth > 0.0 && light.OpticalDepth < DeepestDepth)
+    if (depth > 0.0 && light.OpticalDepth < DeepestVeil)
     {
       // Both shares to their last digits, where one is small too.
       const bool thin = depth < 0.1;
@@ -141,8 +139,10 @@ RayLight View::TraceVeil(
       const double passed = thin ? 1.0 - smaller : smaller;
       if (albedo > 0.0)
       {
-        const Vec3 point =
-          origin + (segment.Begin + length * MeanPlace(depth, lost, passed)) * direction;
+        // Where a source that varies linearly along the piece takes its mean.
+        const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
+                                         : 1.0 / extinction - length * passed / lost;
+        const Vec3 point = origin + (segment.Begin + mean) * direction;
         const double weight = scatter * ahead * lost;
         light.VeilDirect += weight * self.DirectFluence.Smooth(segment.Cell, point, band);
         self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
@@ -161,13 +161,12 @@ RayLight View::TraceVeil(
 }
 
 GatheredVeil View::GatherVeil(
-  const Vec3& origin, const Vec3& direction, double end, int band, double wanted) const
+  const Vec3& origin, const std::vector<SightLine>& lines, int band) const
 {
   const Implementation& self = *this->Implementation_;
   const IndirectLight indirect(
     *this->Scene_, *this->Field_, self.DirectFluence, self.MultipleShape[band], band);
-  return VeilGather(*this->Scene_, *this->Field_, indirect, band, origin, direction, end)
-    .Run(wanted);
+  return VeilGather(*this->Scene_, *this->Field_, indirect, band, origin, lines).Run();
 }
 
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const

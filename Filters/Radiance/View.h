@@ -3,12 +3,15 @@
 
 #include "LightField.h"
 #include "Scene.h"
-#include "VeilGather.h"
 
 #include <memory>
+#include <vector>
 
 namespace smokevis
 {
+
+struct GatheredVeil;
+struct SightLine;
 
 /// What arrives along one ray, in one band.
 struct RayLight
@@ -56,11 +59,9 @@ public:
   RayLight TraceVeil(
     const Vec3& origin, const Vec3& direction, double begin, double end, int band) const;
 
-  /// Multiply scattered light that the smoke up to `end` sends to a ray's origin, gathered anew: it
-  /// stands for RayLight::VeilMultiple where that is known too badly.
-  /// @param wanted standard error [cd/m2]; it may not be reached
-  GatheredVeil GatherVeil(
-    const Vec3& origin, const Vec3& direction, double end, int band, double wanted) const;
+  /// Mean over lines of sight from one origin of RayLight::VeilMultiple, gathered anew: for where
+  /// the field knows it too badly.
+  GatheredVeil GatherVeil(const Vec3& origin, const std::vector<SightLine>& lines, int band) const;
 
   /// Luminance that leaves an emitter cell towards a direction (unit, away from the plate), emitted
   /// and reflected [cd/m2], before any smoke.

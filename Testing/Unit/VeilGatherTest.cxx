@@ -1,4 +1,5 @@
 // The veil gathered along rays through a light field that is known.
+#include "VeilGather.h"
 #include "View.h"
 
 #include <cmath>
@@ -53,7 +54,7 @@ TEST(VeilGather, WhiteCloudUnderEvenSky)
   for (const double end : {1.0, 2.2, 9.0})
   {
     const double depth = scene->Smoke().OpticalDepth(origin, direction, 0.0, end);
-    const GatheredVeil veil = view.GatherVeil(origin, direction, end, 0, 0.0);
+    const GatheredVeil veil = view.GatherVeil(origin, {{direction, end}}, 0);
     EXPECT_GT(veil.Rays, 0U);
     for (int batch = 0; batch < Batches; ++batch)
     {
@@ -77,22 +78,48 @@ TEST(VeilGather, FindsLightThatTheFieldDoesNotKnow)
   const Vec3 origin(-0.5, 0.3, 0.4);
   const Vec3 direction(1.0, 0.0, 0.0);
   const double depth = scene->Smoke().OpticalDepth(origin, direction, 0.0, 9.0);
-  const GatheredVeil veil = view.GatherVeil(origin, direction, 9.0, 0, 0.0);
+  const GatheredVeil veil = view.GatherVeil(origin, {{direction, 9.0}}, 0);
   EXPECT_NEAR(Mean(veil.Multiple) / (SkyLuminance * depth), 1.0, 1e-3);
 }
 
-// Rays stop where they are good enough, and none are drawn where there is no smoke to send light.
-TEST(VeilGather, DrawsNoMoreRaysThanAreWanted)
+// The mean over two lines of sight, of which one leads into the cloud and one away from it.
+TEST(VeilGather, MeanOverLines)
+{
+  const auto scene = std::make_shared<const Scene>(WhiteCloud());
+  const View view(scene, EvenField(*scene, 4.0 * std::numbers::pi * SkyLuminance));
+  const Vec3 origin(-0.5, 0.3, 0.4);
+  const Vec3 direction(1.0, 0.0, 0.0);
+  const double depth = scene->Smoke().OpticalDepth(origin, direction, 0.0, 9.0);
+  const GatheredVeil veil =
+    view.GatherVeil(origin, {{direction, 9.0, 0.3}, {-direction, 9.0, 0.7}}, 0);
+  EXPECT_NEAR(Mean(veil.Multiple) / (0.3 * SkyLuminance * -std::expm1(-depth)), 1.0, 2e-6);
+}
+
+// Rays of the same line through the same light are the same, those through other light are not.
+TEST(VeilGather, RaysBelongToTheField)
+{
+  const auto scene = std::make_shared<const Scene>(WhiteCloud());
+  const std::vector<SightLine> line = {{{1.0, 0.0, 0.0}, 9.0}};
+  const Vec3 origin(-0.5, 0.3, 0.4);
+  const auto gathered = [&](double fluence)
+  { return View(scene, EvenField(*scene, fluence)).GatherVeil(origin, line, 0).Multiple; };
+  const Lanes first = gathered(1.0);
+  const Lanes again = gathered(1.0);
+  const Lanes other = gathered(1.0 + 1e-6);
+  EXPECT_GT(StandardError(first), 0.0);
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    EXPECT_EQ(first[batch], again[batch]);
+    EXPECT_GT(std::abs(other[batch] - first[batch]), 1e-5F * first[batch]);
+  }
+}
+
+// Where no smoke scatters there is nothing to gather.
+TEST(VeilGather, NothingInClearAir)
 {
   const auto scene = std::make_shared<const Scene>(WhiteCloud());
   const View view(scene, EvenField(*scene, 1.0));
-  const Vec3 origin(-0.5, 0.3, 0.4);
-  const Vec3 direction(1.0, 0.0, 0.0);
-  const GatheredVeil all = view.GatherVeil(origin, direction, 9.0, 0, 0.0);
-  const GatheredVeil rough = view.GatherVeil(origin, direction, 9.0, 0, 1e9);
-  EXPECT_LT(rough.Rays, all.Rays);
-  EXPECT_NEAR(Mean(rough.Multiple), Mean(all.Multiple), 4.0 * StandardError(rough.Multiple) + 1e-9);
-  const GatheredVeil none = view.GatherVeil(origin, -direction, 9.0, 0, 0.0);
+  const GatheredVeil none = view.GatherVeil({-0.5, 0.3, 0.4}, {{{-1.0, 0.0, 0.0}, 9.0}}, 0);
   EXPECT_EQ(none.Rays, 0U);
   EXPECT_EQ(Mean(none.Multiple), 0.0);
 }
