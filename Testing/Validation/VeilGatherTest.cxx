@@ -72,9 +72,8 @@ Spread SpreadOf(const std::vector<Estimate>& values)
 }
 
 // What is gathered in cells of half a mean free path, from light that is hardly known, against the
-// light of cells half as large and many times the lines, not gathered. Cells that are known too
-// badly to have a shape are as bright as they are in the middle everywhere, which lets a tenth too
-// much light through.
+// light of cells half as large and many times the lines, not gathered. Where light is hardly known,
+// so is its shape inside cells: flat sources let a tenth too much through (a fifth, not gathered).
 TEST(VeilGather, DarkHall)
 {
   constexpr int Seeds = 32;
