@@ -304,13 +304,14 @@ void vtkVisibilityImage::Trace(vtkDataObject* input, vtkImageData* output, vtkIm
     });
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
   const std::vector<double> seconds = ranks.Each(all.count() - team.Waited());
-  ranks.Together(this, [&] { this->Develop(shot, output, photograph); });
-  this->Report(shot, seconds, *output);
+  smokevis::SignMeasurement sign;
+  ranks.Together(this, [&] { sign = this->Develop(shot, output, photograph); });
+  this->Report(shot, sign, seconds, *output);
 }
 
 //------------------------------------------------------------------------------
-void vtkVisibilityImage::Report(
-  const Shot& shot, const std::vector<double>& seconds, vtkImageData& output) const
+void vtkVisibilityImage::Report(const Shot& shot, const smokevis::SignMeasurement& sign,
+  const std::vector<double>& seconds, vtkImageData& output) const
 {
   std::vector<smokevis::WorkItem> report = this->Implementation->Input.Report();
   report.push_back({"pixels", static_cast<double>(shot.Image.Luminance.size()),
@@ -321,13 +322,17 @@ void vtkVisibilityImage::Report(
   report.push_back({"points of the lens", std::max(1.0, double(shot.Image.LensPoints)),
     shot.Image.LensPoints > 0 ? "the picture is the mean over the aperture"
                               : "without LensBlur the lens is a pinhole"});
+  report.push_back({"rays gathered by the sign's view", static_cast<double>(sign.Rays),
+    sign.Rays > 0 ? "the light field left its contrast uncertain"
+                  : "the light field tells its contrast, or it is lost in the observer's noise"});
   smokevis::AddWorkReport(output, report);
   smokevis::ReportRanks(
     *output.GetFieldData(), {{"seconds", seconds, "tracing its pixels, but for waiting"}});
 }
 
 //------------------------------------------------------------------------------
-void vtkVisibilityImage::Develop(const Shot& shot, vtkImageData* output, vtkImageData* photograph)
+smokevis::SignMeasurement vtkVisibilityImage::Develop(
+  const Shot& shot, vtkImageData* output, vtkImageData* photograph)
 {
   const int bands = this->Implementation->Input.Bands();
   smokevis::StorePixels(shot.Image, shot.Size, bands, shot.Target, *output);
@@ -372,6 +377,7 @@ void vtkVisibilityImage::Develop(const Shot& shot, vtkImageData* output, vtkImag
     bands == 3 ? shot.Image.LuminanceRGB : shot.Image.Luminance, bands, exposure, shot.Response);
   number("ShutterTime", taken.Time);
   smokevis::StorePhotograph(taken, bands, *output, *photograph);
+  return result;
 }
 
 //------------------------------------------------------------------------------

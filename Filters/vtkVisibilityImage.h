@@ -52,6 +52,7 @@ class vtkStringArray;
 namespace smokevis
 {
 class Agreement;
+struct SignMeasurement;
 } // namespace smokevis
 
 class SMOKEFILTERS_EXPORT vtkVisibilityImage : public vtkImageAlgorithm
@@ -317,9 +318,12 @@ private:
   /// Takes and develops a shot, together with all processes of a parallel run.
   void Trace(vtkDataObject* input, vtkImageData* output, vtkImageData* photograph);
   void AddProperties(smokevis::Agreement& agreement) const;
-  void Develop(const Shot& shot, vtkImageData* output, vtkImageData* photograph);
+  /// Returns what was measured of the sign.
+  smokevis::SignMeasurement Develop(
+    const Shot& shot, vtkImageData* output, vtkImageData* photograph);
   /// @param seconds that each process has worked
-  void Report(const Shot& shot, const std::vector<double>& seconds, vtkImageData& output) const;
+  void Report(const Shot& shot, const smokevis::SignMeasurement& sign,
+    const std::vector<double>& seconds, vtkImageData& output) const;
 
   double CameraPosition[3] = {0.0, 0.0, 1.7};
   int TargetSign = -1;

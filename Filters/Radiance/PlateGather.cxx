@@ -6,6 +6,7 @@
 #include "Team.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -105,35 +106,36 @@ PlateGather::Result PlateGather::Gather(
   }
   direct /= area;
 
-  std::array<double, Batches> sums{};
   Result result;
-  Lanes& illuminance = result.Illuminance;
-  int done = 0;
-  for (int rays = FirstRays;; rays *= 2)
+  const auto gather = [&](std::uint64_t stream, int rays)
   {
-    for (int batch = 0; batch < Batches; ++batch)
+    Lanes illuminance;
+    for (int batch = 0; batch < Batches && !progress.ShouldStop(); ++batch)
     {
       // Even over the plate, and over directions by their cosine.
-      const std::uint64_t key = Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + batch;
+      const std::uint64_t key =
+        Mix(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + Batches * stream + batch);
       const EvenPoints points(key);
-      for (int ray = done; ray < rays; ++ray)
+      double sum = 0.0;
+      for (int ray = 0; ray < rays; ++ray)
       {
         const auto random = points.Point(ray);
         const Vec3 direction = LambertianDirection(sign.Normal, tangent, random[2], random[3]);
-        sums[batch] +=
-          glm::pi<double>() * indirect.Radiance(base + random[0] * edgeU + random[1] * edgeV,
-                                direction, ToUnit(Mix(key + ray)), batch);
+        sum += glm::pi<double>() * indirect.Radiance(base + random[0] * edgeU + random[1] * edgeV,
+                                     direction, ToUnit(Mix(key + ray)), batch);
       }
-      illuminance[batch] = static_cast<float>(sums[batch] / rays);
+      illuminance[batch] = static_cast<float>(sum / rays);
     }
-    result.Rays += static_cast<std::size_t>(Batches) * (rays - done);
-    done = rays;
-    if (StandardError(illuminance) <= this->Options_.Tolerance * (Mean(illuminance) + direct) ||
-        2 * rays > MostRays || progress.ShouldStop())
-    {
-      break;
-    }
-  }
+    result.Rays += static_cast<std::size_t>(Batches) * rays;
+    return illuminance;
+  };
+  // The first rays only tell how many it takes: to stop where batches happen to agree would favour
+  // those that missed what is rare and bright.
+  const Lanes first = gather(0, FirstRays);
+  const double wanted = this->Options_.Tolerance * (Mean(first) + direct);
+  const double error = StandardError(first);
+  const double rays = error > wanted ? FirstRays * std::pow(error / wanted, 2) : FirstRays;
+  result.Illuminance = gather(1, static_cast<int>(std::min<double>(rays, MostRays)));
   return result;
 }
 

@@ -105,6 +105,32 @@ void CheckProfiles(double opticalSide, double albedo)
   }
 }
 
+// The published table of the conservative square, along its centre line, between the centres of the
+// cells; closer to the wall than the first of them it is steeper than a cell.
+TEST(Enclosure, PublishedConservativeSquare)
+{
+  report::Head("Square enclosure, side 1, albedo 1, published");
+  const Solved solved(SquareBox(1.0, 1.0));
+  const report::ReferenceTable table("square2d_crosbie_schrenker_published.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    const double y = table.Number(row, "y_over_L");
+    const double cell = y * Across - 0.5;
+    if (cell < 0.0 || cell > Across - 1.0)
+    {
+      continue;
+    }
+    const double share = cell - std::floor(cell);
+    const double low = (std::floor(cell) + 0.5) / Across;
+    const Estimate below = solved.Fluence(CellsAt(0.5, low));
+    const Estimate above = share > 0.0 ? solved.Fluence(CellsAt(0.5, low + 1.0 / Across)) : below;
+    const auto between = [share](double a, double b)
+    { return ((1.0 - share) * a + share * b) / (4.0 * Pi); };
+    report::Relative("y " + table.Text(row, "y_over_L"), table.Number(row, "S_published"),
+      between(below.Mean, above.Mean), 0.01, between(below.StandardError, above.StandardError));
+  }
+}
+
 TEST(Enclosure, SideOneAlbedoHalf)
 {
   CheckProfiles(1.0, 0.5);

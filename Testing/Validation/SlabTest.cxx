@@ -71,7 +71,7 @@ void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albe
 
 TEST(Slab, DepthOne)
 {
-  CheckRows(1.0, 1.0, {0.5, 0.9});
+  CheckRows(1.0, 1.0, {0.0, 0.5, 0.9});
 }
 
 // Layers of half a mean free path and of a whole one, inside which light falls off much: its course
@@ -102,19 +102,49 @@ TEST(Slab, CoarseLayersAreAlikeForAllSeeds)
 
 TEST(Slab, ThinLong)
 {
-  CheckRows(0.1, 0.5, {0.2, 0.9, 1.0});
+  CheckRows(0.1, 0.5, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
 }
 
 TEST(Slab, ThickLong)
 {
-  CheckRows(1.0, 10.0, {0.2, 0.8, 0.99, 1.0});
+  CheckRows(1.0, 10.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
 }
 
 // To the end of the table: 321 layers of a tenth of a mean free path, through which 2 % to nothing
 // of the light comes.
 TEST(Slab, ThickestLong)
 {
-  CheckRows(16.0, 32.0, {0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
+  CheckRows(16.0, 32.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
+}
+
+/// Light that a half-space of smoke sends back of diffuse light that falls in: from
+/// Chandrasekhar's H-function, 1 - 2 sqrt(1 - albedo) times the integral of mu H(mu) over (0, 1).
+double HalfSpaceReflectance(const std::string& albedo)
+{
+  const report::ReferenceTable table("slab_H_function.csv");
+  // H(0) is 1, and the table's steps are small where H is steep: trapezoids err by 2e-3.
+  double mu = 0.0;
+  double function = 0.0;
+  double integral = 0.0;
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    const double next = table.Number(row, "mu");
+    const double there = next * table.Number(row, "H_w" + albedo);
+    integral += 0.5 * (next - mu) * (function + there);
+    mu = next;
+    function = there;
+  }
+  return 1.0 - 2.0 * std::sqrt(1.0 - std::stod(albedo)) * integral;
+}
+
+// Of ten mean free paths of soot nothing shows that a half-space would not, to 1e-4.
+TEST(Slab, DeepSootIsAHalfSpace)
+{
+  report::Head("Slab of ten mean free paths, albedo 0.5, against a half-space");
+  const scenes::Slab slab = scenes::MakeSlab(10.0, 0.5, LayersFor(10.0));
+  const Solved solved(slab.Description);
+  const Estimate back = solved.Illuminance(slab.NearPatches, 0);
+  report::Relative("R", HalfSpaceReflectance("0.5"), back.Mean, 0.01, back.StandardError);
 }
 
 /// Conservative slab between black plates: flux, and G / 4 at a quarter of the depth.

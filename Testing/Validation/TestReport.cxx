@@ -39,7 +39,8 @@ void Judge(const std::string& name, double reference, double value, double allow
 std::vector<std::string> SplitLine(const std::string& line)
 {
   std::vector<std::string> cells;
-  std::istringstream stream(line);
+  // A last cell that is empty counts, too.
+  std::istringstream stream(line + ',');
   std::string cell;
   while (std::getline(stream, cell, ','))
   {
