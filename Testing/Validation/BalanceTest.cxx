@@ -31,15 +31,22 @@ SceneDescription FurnishedRoom(double albedo, double extinction)
   return scene;
 }
 
-void CheckBalance(const std::string& name, double albedo, double extinction)
+/// Power that plates send out [lm].
+double Emitted(const Solved& solved)
 {
-  const Solved solved(FurnishedRoom(albedo, extinction));
   double emitted = 0.0;
   const EmitterSet& lights = solved.TheScene->Lights();
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
   {
     emitted += Pi * lights.Cells()[cell].Luminance[0] * lights.CellArea(cell);
   }
+  return emitted;
+}
+
+void CheckBalance(const std::string& name, double albedo, double extinction)
+{
+  const Solved solved(FurnishedRoom(albedo, extinction));
+  const double emitted = Emitted(solved);
   const Estimate smoke = solved.AbsorbedInSmoke();
   const Estimate surfaces = solved.AbsorbedOnSurfaces();
   report::Relative(name, emitted, smoke.Mean + surfaces.Mean, 1e-3,
@@ -55,6 +62,45 @@ TEST(Balance, ClosedRoom)
   CheckBalance("extinction 0.5, albedo 0.6", 0.6, 0.5);
   CheckBalance("extinction 2, albedo 0.9", 0.9, 2.0);
   CheckBalance("extinction 2, albedo 1", 1.0, 2.0);
+}
+
+/// A cloud in the open around a block and a lamp.
+SceneDescription OpenCloud()
+{
+  SceneDescription scene;
+  scene.Albedo = 0.8;
+  const Vec3 upper(3, 2, 2);
+  scene.Grids = {scenes::NoisySmoke(Vec3(0.0), upper, {15, 10, 10}, 0.3, 1.5, 6)};
+  scenes::AddBlock(scene.Surfaces, {1.4, 0.8, 0.2}, {1.8, 1.4, 1.1}, 0.2, 0.4);
+  scene.Emitters = {scenes::Plate({0.7, 1, 1.6}, {0, 0, -1}, {1, 0, 0}, 0.5, 0.5, 20.0, 0.3)};
+  return scene;
+}
+
+// What the open takes is what a black box far around takes in: with it, what is emitted is absorbed
+// in the smoke and on surfaces or escapes, to the promised 0.1 %.
+TEST(Balance, OpenCloud)
+{
+  report::Head("Energy balance of a cloud in the open [lm]");
+  const Solved open(OpenCloud(), 0.005);
+  SceneDescription boxed = OpenCloud();
+  const std::size_t own = boxed.Surfaces.CellReflectance.size();
+  scenes::AddRoom(boxed.Surfaces, Vec3(-7, -7, -7), Vec3(9, 9, 9), 1.0, 0.0);
+  const Solved box(boxed, 0.005);
+  std::vector<std::size_t> walls;
+  for (std::size_t patch = own; patch < box.TheScene->SurfacePatches(); ++patch)
+  {
+    walls.push_back(patch);
+  }
+  const double area = static_cast<double>(walls.size()) * box.TheScene->PatchArea(walls.front());
+  const Estimate onWalls = box.Illuminance(walls, 0);
+  const Estimate smoke = open.AbsorbedInSmoke();
+  const Estimate surfaces = open.AbsorbedOnSurfaces();
+  const double error = std::hypot(
+    smoke.StandardError, std::hypot(surfaces.StandardError, area * onWalls.StandardError));
+  const double emitted = Emitted(open);
+  EXPECT_LT(error, 1e-3 * emitted);
+  EXPECT_GT(area * onWalls.Mean, 0.3 * emitted);
+  report::Relative("cloud", emitted, smoke.Mean + surfaces.Mean + area * onWalls.Mean, 1e-3, error);
 }
 
 /// Two squares in a room with smoke and a block half between them; one emits.
