@@ -1,6 +1,5 @@
 #include "CellShape.h"
 
-#include "ExponentialMean.h"
 #include "OpenFaces.h"
 #include "Scene.h"
 

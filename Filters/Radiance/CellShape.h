@@ -1,6 +1,7 @@
 // How a field that is known by its cell means varies inside the cells.
 #pragma once
 
+#include "ExponentialMean.h"
 #include "Types.h"
 
 #include <cmath>
@@ -50,7 +51,7 @@ public:
     {
       fall -= this->LogarithmSlope(cell, axis) * step[axis];
     }
-    return depth * this->Value(cell, begin) * (fall == 0.0 ? 1.0 : -std::expm1(-fall) / fall);
+    return depth * this->Value(cell, begin) * MeanOfExponential(fall);
   }
 
   /// Slope of the logarithm along an axis in a cell [1/m].

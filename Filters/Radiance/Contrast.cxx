@@ -193,8 +193,8 @@ private:
   void FillFactors(
     const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen);
   void FillMeans(const std::vector<Part>& parts);
-  /// Contrasts and all that depends on the veil.
-  void FillResult(const std::vector<Facet>& facets, std::vector<Part>& parts);
+  /// Adds the veil, and finds contrasts and all that depends on it.
+  void FillResult(std::vector<Part>& parts);
 
   const View& View_;
   const EmitterSet& Lights_;
@@ -299,7 +299,6 @@ void SignLook::FillFactors(
   const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen)
 {
   const Vec3 point = this->OnFacet(facet, place);
-  seen.Factors = {};
   const double weight = seen.Density * block.Sum[0];
   const Scene& scene = this->View_.TheScene();
   const Vec3 way = point - this->Eye_;
@@ -314,7 +313,6 @@ void SignLook::FillFactors(
     const double share = BandWeight(this->View_, band);
     const double bandDepth = scene.ExtinctionScale(band) * depth;
     const double transmitted = share * std::exp(-bandDepth);
-    const Lanes veil = this->Veils_[band].At(place);
     Lanes multiple;
     double steady = 0.0;
     if (block.Sum[1 + MaxBands + band] > 0.0)
@@ -325,7 +323,6 @@ void SignLook::FillFactors(
     }
     for (int batch = 0; batch < Batches; ++batch)
     {
-      seen.Factors[batch][0] += share * veil[batch];
       seen.Factors[batch][1 + band] = transmitted * relative;
       seen.Factors[batch][1 + MaxBands + band] =
         transmitted * (steady + multiple[batch]) / glm::pi<double>();
@@ -394,25 +391,36 @@ void SignLook::FillMeans(const std::vector<Part>& parts)
   result.MeanLuminanceError = StandardError(mean);
 }
 
-void SignLook::FillResult(const std::vector<Facet>& facets, std::vector<Part>& parts)
+void SignLook::FillResult(std::vector<Part>& parts)
 {
-  SignMeasurement& result = this->Result_;
-  result.OpticalDepth = 0.0;
   Sums sums;
-  for (std::size_t index = 0; index < parts.size(); ++index)
+  for (Part& part : parts)
   {
-    Part& part = parts[index];
     for (std::size_t i = 0; i < part.Blocks.size(); ++i)
     {
-      if (part.Blocks[i].Density > 0.0)
+      SeenBlock& seen = part.Blocks[i];
+      if (!(seen.Density > 0.0))
       {
-        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
+        continue;
+      }
+      DoubleLanes sum{};
+      for (int band = 0; band < this->Bands_; ++band)
+      {
+        const Lanes veil = this->Veils_[band].At(part.Middles[i]);
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          sum[batch] += BandWeight(this->View_, band) * veil[batch];
+        }
+      }
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        seen.Factors[batch][0] = sum[batch];
       }
     }
     AddPixels(part.Pattern, part.Blocks, sums);
   }
-  result.OpticalDepth /= this->Seen_;
   this->FillMeans(parts);
+  SignMeasurement& result = this->Result_;
   const ResampledMoments resampled = sums.Get();
   result.MeanLuminance = resampled[0].Mean;
   Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
@@ -443,10 +451,22 @@ SignMeasurement SignLook::Measure()
     this->Veils_.emplace_back(
       this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
   }
+  for (std::size_t index = 0; index < parts.size(); ++index)
+  {
+    Part& part = parts[index];
+    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    {
+      if (part.Blocks[i].Density > 0.0)
+      {
+        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
+      }
+    }
+  }
   SignMeasurement& result = this->Result_;
   result.InView = true;
   result.VisibleFraction = this->Seen_ / this->All_;
-  this->FillResult(facets, parts);
+  result.OpticalDepth /= this->Seen_;
+  this->FillResult(parts);
   if (result.ContrastError > UncertainContrast &&
       result.LitLuminance >= FaintShare * this->Observer_.DarkLuminance)
   {
@@ -454,7 +474,7 @@ SignMeasurement SignLook::Measure()
     {
       result.Rays += this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band);
     }
-    this->FillResult(facets, parts);
+    this->FillResult(parts);
   }
   return result;
 }

@@ -6,11 +6,17 @@
 namespace smokevis
 {
 
+/// Mean of exp(-depth t) over t in (0, 1), (1 - exp(-depth)) / depth.
+inline double MeanOfExponential(double depth)
+{
+  return depth == 0.0 ? 1.0 : -std::expm1(-depth) / depth;
+}
+
 /// Logarithm of the mean of exp(2 h t) over t in (-1/2, 1/2), log(sinh(h) / h); no h is too large.
 inline double LogarithmOfMean(double h)
 {
   const double size = std::abs(h);
-  return size < 1e-3 ? size * size / 6.0 : size + std::log(-std::expm1(-2.0 * size) / (2.0 * size));
+  return size < 1e-3 ? size * size / 6.0 : size + std::log(MeanOfExponential(2.0 * size));
 }
 
 /// Langevin's function coth h - 1 / h, the derivative of LogarithmOfMean: twice the place t that

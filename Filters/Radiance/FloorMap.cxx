@@ -25,19 +25,14 @@ double JinVisibility(double extinction)
                                                        : FarthestVisibility;
 }
 
-/// Counts of what was left out.
-struct Skipped
+/// Counts of what was left out, and of what was gathered along rays.
+struct Counts
 {
   std::atomic<std::size_t> Solid{0};
   std::atomic<std::size_t> Away{0};
   std::atomic<std::size_t> CutOff{0};
   std::atomic<std::size_t> Hidden{0};
-};
-
-/// Counts of what was gathered along rays.
-struct Gathered
-{
-  std::atomic<std::size_t> Views{0};
+  std::atomic<std::size_t> Gathered{0};
   std::atomic<std::size_t> Rays{0};
 };
 
@@ -49,7 +44,7 @@ bool FacesAway(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
 }
 
 void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t place,
-  FloorMap& map, Skipped& skipped, Gathered& gathered)
+  FloorMap& map, Counts& counts)
 {
   const EmitterSet& lights = view.TheScene().Lights();
   const Medium& smoke = view.TheScene().Smoke();
@@ -62,7 +57,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
   if (view.InsideSolid(eye))
   {
     map.Status[place] = PlaceStatus::InsideSolid;
-    ++skipped.Solid;
+    ++counts.Solid;
     return;
   }
   std::optional<GlareSources> glare;
@@ -74,24 +69,24 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
   {
     if (FacesAway(lights, lights.Signs()[sign], eye))
     {
-      ++skipped.Away;
+      ++counts.Away;
       continue;
     }
     const Observer observer =
       LookingAt(options.Eye, options.State, glare ? &*glare : nullptr, lights.Signs()[sign]);
     if (options.CutOff > 0.0 && PerceivedContrastBound(view, sign, eye, observer) < options.CutOff)
     {
-      ++skipped.CutOff;
+      ++counts.CutOff;
       continue;
     }
     const SignMeasurement measured = MeasureSign(view, sign, eye, observer);
     if (!measured.InView)
     {
-      ++skipped.Hidden;
+      ++counts.Hidden;
       continue;
     }
-    gathered.Views += measured.Rays > 0 ? 1 : 0;
-    gathered.Rays += measured.Rays;
+    counts.Gathered += measured.Rays > 0 ? 1 : 0;
+    counts.Rays += measured.Rays;
     const std::size_t index = place * map.Signs + sign;
     map.Contrast[index] = static_cast<float>(measured.Contrast);
     map.PerceivedContrast[index] = static_cast<float>(measured.PerceivedContrast);
@@ -146,27 +141,27 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   {
     values->assign(places * map.Signs, 0.0F);
   }
-  Skipped skipped;
-  Gathered gathered;
+  Counts counts;
   tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
   const std::size_t last = std::min(places, options.End);
   const std::size_t own = last - std::min(last, options.First);
   ReportedLoop(
     arena, own, 1, progress, [&progress](double done) { progress.Report(done); },
-    [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, skipped, gathered); });
+    [&](std::size_t i) { MeasurePlace(view, options, options.First + i, map, counts); });
   progress.ThrowIfStopped("floor map");
   const auto say = [&map](const char* what, std::size_t count, const char* why) {
     map.Report.push_back({what, static_cast<double>(count), why});
   };
   const std::size_t views = own * map.Signs;
-  const std::size_t left = skipped.Solid * map.Signs + skipped.Away + skipped.CutOff;
-  say("views of signs computed", views - left - skipped.Hidden, "the sign is in view");
-  say("views of signs gathered for", gathered.Views, "the light field left the contrast uncertain");
-  say("rays gathered by views of signs", gathered.Rays, "they tell the veil in the dark");
-  say("places skipped", skipped.Solid, "inside a solid");
-  say("views of signs skipped", skipped.Away, "the sign faces away");
-  say("views of signs skipped", skipped.Hidden, "the sign is hidden");
-  say("views of signs skipped", skipped.CutOff, "its contrast is bounded below the cut-off");
+  const std::size_t left = counts.Solid * map.Signs + counts.Away + counts.CutOff;
+  say("views of signs computed", views - left - counts.Hidden, "the sign is in view");
+  say(
+    "views of signs gathered for", counts.Gathered, "the light field left the contrast uncertain");
+  say("rays gathered by views of signs", counts.Rays, "they tell the veil in the dark");
+  say("places skipped", counts.Solid, "inside a solid");
+  say("views of signs skipped", counts.Away, "the sign faces away");
+  say("views of signs skipped", counts.Hidden, "the sign is hidden");
+  say("views of signs skipped", counts.CutOff, "its contrast is bounded below the cut-off");
   return map;
 }
 

@@ -37,36 +37,31 @@ double IndirectLight::Radiance(
     const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(cell);
     // As for lines: what rays gather balances what they bring.
     const bool flat = extinction * smoke.MeanChord(cell) >= SourceShape::ThickestDepth;
+    const bool varies = this->Direct_.Varies(cell, this->Band_);
+    const bool smooth = !varies && !flat && !this->Direct_.Near(cell);
     double begin = segment.Begin;
-    // direct(begin, step, depth, lost): fluence that emerges at the beginning of a part.
-    const auto add = [&](double length, const auto& direct)
+    const auto add = [&](double length, double direct)
     {
       const double own = extinction * length;
       const double lost = -std::expm1(-own);
       const Vec3 from = origin + begin * direction;
       const Vec3 step = length * direction;
       const double fluence =
-        direct(from, step, own, lost) +
+        (smooth ? this->Direct_.SmoothEmerging(cell, from, step, own, this->Band_)
+                : lost * direct) +
         multiple * (flat ? lost : this->Shape_.Emerging(cell, from, step, own));
       sum += std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * fluence + lost * emitted);
       depth += own;
       begin += length;
     };
-    const auto even = [](double fluence)
-    { return [fluence](const Vec3&, const Vec3&, double, double lost) { return lost * fluence; }; };
-    if (this->Direct_.Varies(cell, this->Band_))
+    if (varies)
     {
-      this->Direct_.ForEachPart(cell, origin, direction, segment.Begin, segment.End, place,
-        this->Band_, [&](double length, double fluence) { add(length, even(fluence)); });
-    }
-    else if (flat || this->Direct_.Near(cell))
-    {
-      add(segment.End - segment.Begin, even(this->Field_.DirectFluence[index]));
+      this->Direct_.ForEachPart(
+        cell, origin, direction, segment.Begin, segment.End, place, this->Band_, add);
     }
     else
     {
-      add(segment.End - segment.Begin, [&](const Vec3& from, const Vec3& step, double own, double)
-        { return this->Direct_.SmoothEmerging(cell, from, step, own, this->Band_); });
+      add(segment.End - segment.Begin, this->Field_.DirectFluence[index]);
     }
     if (depth > DeepestVeil)
     {

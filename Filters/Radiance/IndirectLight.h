@@ -21,6 +21,10 @@ public:
   IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
     const CellShape& shape, int band);
 
+  const Scene& TheScene() const { return this->Scene_; }
+  const LightField& Field() const { return this->Field_; }
+  int Band() const { return this->Band_; }
+
   /// Radiance against a ray in one batch [cd/m2].
   /// @param place where near lights are taken (DirectField::ForEachPart), 0 to 1
   double Radiance(const Vec3& origin, const Vec3& direction, double place, int batch) const;

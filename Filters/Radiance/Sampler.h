@@ -60,6 +60,15 @@ private:
   std::array<double, 4> Shift_;
 };
 
+/// A unit direction, all alike likely, from two numbers of 0 to 1.
+inline Vec3 SphereDirection(double first, double second)
+{
+  const double z = 2.0 * first - 1.0;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
+  const double angle = glm::two_pi<double>() * second;
+  return {sine * std::cos(angle), sine * std::sin(angle), z};
+}
+
 /// A unit direction as a Lambertian plane sends or gathers light: as often as its cosine with the
 /// normal.
 /// @param tangent unit vector in the plane

@@ -1,5 +1,6 @@
 #include "ThickCells.h"
 
+#include "ExponentialMean.h"
 #include "GlobalLines.h"
 #include "LinePieces.h"
 #include "Progress.h"
@@ -31,7 +32,7 @@ constexpr std::uint64_t Key = 0x7c3119;
 /// from their mean depth: by Jensen's inequality none is larger.
 double LargestEscape(double depth)
 {
-  return depth > 0.0 ? -std::expm1(-depth) / depth : 1.0;
+  return MeanOfExponential(depth);
 }
 
 } // namespace

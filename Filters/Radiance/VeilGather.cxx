@@ -20,93 +20,135 @@ constexpr int RaysABatch = 64;
 /// there is thought to be.
 constexpr double BlindShare = 0.1;
 
-} // namespace
-
-VeilGather::VeilGather(const Scene& scene, const LightField& field, const IndirectLight& indirect,
-  int band, const Vec3& origin, const std::vector<SightLine>& lines)
-    : Indirect_(indirect), Origin_(origin)
+/// A piece of a line of sight inside one cell.
+struct Piece
 {
+  std::int64_t Cell;
+  Vec3 Direction;
+  double Begin, Length, Extinction;
+  /// Share of the light from behind that is lost.
+  double Lost;
+  /// Mean luminance at the eye over fluence.
+  double Weight;
+  /// Share of the rays that begin here.
+  double Share;
+  /// Sum of the shares up to this piece's end.
+  double Until;
+};
+
+/// Pieces that scatter, without their shares.
+std::vector<Piece> PiecesOf(
+  const IndirectLight& light, const Vec3& origin, const std::vector<SightLine>& lines)
+{
+  const Scene& scene = light.TheScene();
   const double scatter = scene.Albedo() / (4.0 * glm::pi<double>());
   std::vector<Segment> segments;
-  double weights = 0.0;
-  double lights = 0.0;
-  const auto fold = [this](auto bits) { this->Key_ = Mix(this->Key_ + bits); };
+  std::vector<Piece> pieces;
   for (const SightLine& line : lines)
   {
     scene.Smoke().WalkSmoke(origin, line.Direction, 0.0, line.End, segments);
     double ahead = line.Weight;
     for (const Segment& segment : segments)
     {
-      Piece piece;
-      piece.Direction = line.Direction;
-      piece.Begin = segment.Begin;
-      piece.Length = segment.End - segment.Begin;
-      piece.Extinction = scene.ExtinctionScale(band) * scene.Smoke().Extinction(segment.Cell);
-      piece.Lost = -std::expm1(-piece.Extinction * piece.Length);
-      piece.Weight = scatter * ahead * piece.Lost;
-      if (!(piece.Weight > 0.0))
+      const double length = segment.End - segment.Begin;
+      const double extinction =
+        scene.ExtinctionScale(light.Band()) * scene.Smoke().Extinction(segment.Cell);
+      const double lost = -std::expm1(-extinction * length);
+      const double weight = scatter * ahead * lost;
+      if (weight > 0.0)
       {
-        continue;
+        pieces.push_back({segment.Cell, line.Direction, segment.Begin, length, extinction, lost,
+          weight, 0.0, 0.0});
       }
-      // Rays begin where the light is thought to come from.
-      const std::size_t index = field.CellIndex(band, segment.Cell);
-      const Lanes& multiple = field.MultipleFluence[index];
-      piece.Share = piece.Weight * (field.DirectFluence[index] + std::max(0.0, Mean(multiple)));
-      weights += piece.Weight;
-      lights += piece.Share;
-      ahead *= 1.0 - piece.Lost;
-      fold(std::bit_cast<std::uint32_t>(multiple[0]));
-      this->Pieces_.push_back(piece);
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      fold(std::bit_cast<std::uint64_t>(origin[axis]));
-      fold(std::bit_cast<std::uint64_t>(line.Direction[axis]));
+      ahead *= 1.0 - lost;
     }
   }
-  const double blind = lights > 0.0 ? BlindShare : 1.0;
-  double until = 0.0;
-  for (Piece& piece : this->Pieces_)
+  return pieces;
+}
+
+/// Rays begin where the light is thought to come from.
+void FindShares(const IndirectLight& light, std::vector<Piece>& pieces)
+{
+  double weights = 0.0;
+  double lights = 0.0;
+  for (Piece& piece : pieces)
   {
-    piece.Share =
-      blind * piece.Weight / weights + (lights > 0.0 ? (1.0 - blind) * piece.Share / lights : 0.0);
+    const std::size_t index = light.Field().CellIndex(light.Band(), piece.Cell);
+    piece.Share = piece.Weight * (light.Field().DirectFluence[index] +
+                                   std::max(0.0, Mean(light.Field().MultipleFluence[index])));
+    weights += piece.Weight;
+    lights += piece.Share;
+  }
+  const double blind = (lights > 0.0 ? BlindShare : 1.0) / weights;
+  const double seen = lights > 0.0 ? (1.0 - BlindShare) / lights : 0.0;
+  double until = 0.0;
+  for (Piece& piece : pieces)
+  {
+    piece.Share = blind * piece.Weight + seen * piece.Share;
     until += piece.Share;
     piece.Until = until;
   }
 }
 
-double VeilGather::Sample(int batch, const std::array<double, 4>& random) const
+/// Of the lines and of the field, so that rays of different ones are independent.
+std::uint64_t KeyOf(
+  const IndirectLight& light, const Vec3& origin, const std::vector<Piece>& pieces)
+{
+  std::uint64_t key = 0;
+  const auto fold = [&key](auto bits) { key = Mix(key + bits); };
+  const auto foldPoint = [&fold](const Vec3& point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fold(std::bit_cast<std::uint64_t>(point[axis]));
+    }
+  };
+  foldPoint(origin);
+  for (const Piece& piece : pieces)
+  {
+    foldPoint(piece.Direction);
+    const std::size_t index = light.Field().CellIndex(light.Band(), piece.Cell);
+    fold(std::bit_cast<std::uint32_t>(light.Field().MultipleFluence[index][0]));
+  }
+  return key;
+}
+
+/// What one ray adds to the mean of a batch.
+double Sample(const IndirectLight& light, const Vec3& origin, const std::vector<Piece>& pieces,
+  const std::array<double, 4>& random, int batch)
 {
   // Among the pieces by their shares, inside one as often as smoke scatters towards the eye.
-  const double at = random[0] * this->Pieces_.back().Until;
-  const auto piece = std::lower_bound(this->Pieces_.begin(), this->Pieces_.end() - 1, at,
+  const double at = random[0] * pieces.back().Until;
+  const auto piece = std::lower_bound(pieces.begin(), pieces.end() - 1, at,
     [](const Piece& one, double value) { return one.Until < value; });
   const double within = std::clamp(1.0 - (piece->Until - at) / piece->Share, 0.0, 1.0);
   const double distance =
     piece->Begin + std::min(piece->Length, -std::log1p(-within * piece->Lost) / piece->Extinction);
-  const double height = 2.0 * random[1] - 1.0;
-  const double radius = std::sqrt(std::max(0.0, 1.0 - height * height));
-  const double turn = glm::two_pi<double>() * random[2];
-  const Vec3 towards(radius * std::cos(turn), radius * std::sin(turn), height);
   return piece->Weight / piece->Share * 4.0 * glm::pi<double>() *
-         this->Indirect_.Radiance(
-           this->Origin_ + distance * piece->Direction, towards, random[3], batch);
+         light.Radiance(origin + distance * piece->Direction, SphereDirection(random[1], random[2]),
+           random[3], batch);
 }
 
-GatheredVeil VeilGather::Run() const
+} // namespace
+
+GatheredVeil GatherVeil(
+  const IndirectLight& light, const Vec3& origin, const std::vector<SightLine>& lines)
 {
   GatheredVeil veil;
-  if (this->Pieces_.empty())
+  std::vector<Piece> pieces = PiecesOf(light, origin, lines);
+  if (pieces.empty())
   {
     return veil;
   }
+  FindShares(light, pieces);
+  const std::uint64_t key = KeyOf(light, origin, pieces);
   for (int batch = 0; batch < Batches; ++batch)
   {
-    const EvenPoints points(Mix(this->Key_ + batch));
+    const EvenPoints points(Mix(key + batch));
     double sum = 0.0;
     for (int ray = 0; ray < RaysABatch; ++ray)
     {
-      sum += this->Sample(batch, points.Point(ray));
+      sum += Sample(light, origin, pieces, points.Point(ray), batch);
     }
     veil.Multiple[batch] = static_cast<float>(sum / RaysABatch);
   }

@@ -24,14 +24,6 @@ constexpr double FaintestShare = 1e-7;
 /// than this share of the mean.
 constexpr double DarkShare = 0.1;
 
-Vec3 SphereDirection(double first, double second)
-{
-  const double z = 2.0 * first - 1.0;
-  const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
-  const double angle = glm::two_pi<double>() * second;
-  return {sine * std::cos(angle), sine * std::sin(angle), z};
-}
-
 } // namespace
 
 VeilProbes::VeilProbes(

@@ -166,7 +166,7 @@ GatheredVeil View::GatherVeil(
   const Implementation& self = *this->Implementation_;
   const IndirectLight indirect(
     *this->Scene_, *this->Field_, self.DirectFluence, self.MultipleShape[band], band);
-  return VeilGather(*this->Scene_, *this->Field_, indirect, band, origin, lines).Run();
+  return smokevis::GatherVeil(indirect, origin, lines);
 }
 
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const

@@ -23,7 +23,7 @@ mkdir -p "$results"
   lscpu | grep -E '^(Model name|CPU\(s\)|Thread|L1d|L2|L3)'
   grep MemTotal /proc/meminfo
   c++ --version | head -1
-  echo "Commit: $(git rev-parse --short HEAD)$(git diff --quiet HEAD || echo ', changed')"
+  echo "Commit: $(git rev-parse --short HEAD)$(git diff --quiet HEAD -- . ':!Testing/Benchmark/results' || echo ', changed')"
   echo "Load when it began: $(cut -d' ' -f1 /proc/loadavg)"
 } >"$results/machine.txt"
 for case in "${cases[@]}"; do

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <boost/math/interpolators/makima.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 
 namespace
 {
@@ -122,18 +126,16 @@ TEST(Slab, ThickestLong)
 double HalfSpaceReflectance(const std::string& albedo)
 {
   const report::ReferenceTable table("slab_H_function.csv");
-  // H(0) is 1, and the table's steps are small where H is steep: trapezoids err by 2e-3.
-  double mu = 0.0;
-  double function = 0.0;
-  double integral = 0.0;
+  std::vector<double> mu = {0.0};
+  std::vector<double> h = {1.0};
   for (std::size_t row = 0; row < table.Rows(); ++row)
   {
-    const double next = table.Number(row, "mu");
-    const double there = next * table.Number(row, "H_w" + albedo);
-    integral += 0.5 * (next - mu) * (function + there);
-    mu = next;
-    function = there;
+    mu.push_back(table.Number(row, "mu"));
+    h.push_back(table.Number(row, "H_w" + albedo));
   }
+  const boost::math::interpolators::makima<std::vector<double>> curve(std::move(mu), std::move(h));
+  const double integral = boost::math::quadrature::gauss<double, 30>::integrate(
+    [&curve](double x) { return x * curve(x); }, 0.0, 1.0);
   return 1.0 - 2.0 * std::sqrt(1.0 - std::stod(albedo)) * integral;
 }
 
