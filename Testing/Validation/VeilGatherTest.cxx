@@ -123,10 +123,12 @@ TEST(VeilGather, DarkHall)
     "sign's mean luminance", trueSign.MeanLuminance, luminance.Mean, share, meanOf(luminance));
   report::Relative("sign's contrast", trueSign.Contrast, contrast.Mean, share, meanOf(contrast));
   EXPECT_GT(contrasts.size(), Seeds / 2);
-  // Gathering is of use, and it is used; so many seeds tell a ratio of spreads to a fifth.
-  report::Absolute("spread gathered over traced, veil", 0.0, anew.Deviation / known.Deviation, 1.0);
+  // Gathering is of use, and it is used: over many seeds these are about a half, and would be 1 if
+  // nothing that is gathered were taken.
   report::Absolute(
-    "spread gathered over traced, luminance", 0.0, luminance.Deviation / unused.Deviation, 0.8);
+    "spread gathered over traced, veil", 0.0, anew.Deviation / known.Deviation, 0.95);
+  report::Absolute(
+    "spread gathered over traced, luminance", 0.0, luminance.Deviation / unused.Deviation, 0.95);
   const auto compare = [](const char* what, const Spread& spread, std::size_t count)
   {
     report::Relative(std::string("errors told over spread, ") + what, 1.0,
