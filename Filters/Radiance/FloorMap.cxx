@@ -48,9 +48,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
 {
   const EmitterSet& lights = view.TheScene().Lights();
   const Medium& smoke = view.TheScene().Smoke();
-  const Vec3 eye =
-    options.FirstPlace + Vec3(static_cast<double>(place % options.PlacesX) * options.StepX,
-                           static_cast<double>(place / options.PlacesX) * options.StepY, 0.0);
+  const Vec3 eye = options.EyeAt(place);
   const std::int64_t cell = smoke.Locate(eye);
   map.JinVisibility[place] =
     static_cast<float>(JinVisibility(cell < 0 ? 0.0 : smoke.Extinction(cell)));

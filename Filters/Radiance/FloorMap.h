@@ -29,6 +29,13 @@ struct FloorMapOptions
   /// share the work; the others keep their initial values.
   std::size_t First = 0;
   std::size_t End = std::numeric_limits<std::size_t>::max();
+
+  /// The eye at a place, x fastest.
+  Vec3 EyeAt(std::size_t place) const
+  {
+    return this->FirstPlace + Vec3(static_cast<double>(place % this->PlacesX) * this->StepX,
+                                static_cast<double>(place / this->PlacesX) * this->StepY, 0.0);
+  }
 };
 
 enum class PlaceStatus : signed char

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <tbb/global_control.h>
+
 namespace smokevis::benchmark
 {
 
@@ -21,7 +23,7 @@ struct Settings
   std::string Out = ".";
   std::vector<std::string> Cases;
   std::vector<double> Tolerances = {0.1, 0.03, 0.01, 0.003};
-  /// Samples a pixel of the reference integrator.
+  /// Samples a pixel, or a point of a sign's raster, of the reference integrator; none: without it.
   std::vector<double> Samples = {1, 4, 16, 64};
   /// Threads of the solver; 0: all.
   int Threads = 0;
@@ -53,6 +55,17 @@ struct Solution
 Solution Solve(
   const SceneDescription& description, double tolerance, std::uint64_t seed, int threads);
 
+/// While it lives, no more threads than these (0: all) work. The integrator's own tasks obey the
+/// process's limit, not an arena's.
+class ThreadLimit
+{
+public:
+  explicit ThreadLimit(int threads);
+
+private:
+  tbb::global_control Limit_;
+};
+
 /// Runs body(i) for all i below count on so many threads (0: all).
 void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
@@ -67,7 +80,7 @@ FloorMapOptions HallPlaces(int across, int along, int threads);
 /// tunnel: 64 x 64 pixels, error of pixels and of the veil before dark bars, beside the reference
 /// integrator.
 void RunTunnel(const Settings& settings);
-/// hall12, hall110, hall10m: floor maps.
+/// hall12, hall110, hall10m: floor maps, beside the reference integrator.
 void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine);
 /// growth: time over cells, views, emitters, triangles, optical depth and albedo.
 void RunGrowth(const Settings& settings);

@@ -173,6 +173,15 @@ Solution Solve(
 }
 
 //--------------------------------------------------------------------------------------------------
+ThreadLimit::ThreadLimit(int threads)
+    : Limit_(tbb::global_control::max_allowed_parallelism,
+        threads > 0
+          ? static_cast<std::size_t>(threads)
+          : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
+{
+}
+
+//--------------------------------------------------------------------------------------------------
 void ForAll(std::size_t count, int threads, const std::function<void(std::size_t)>& body)
 {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

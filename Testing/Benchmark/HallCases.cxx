@@ -1,8 +1,12 @@
-// Floor maps of the hall: run time and memory against the error of contrast.
+// Floor maps of the hall: run time and memory against the error of contrast, beside the reference
+// integrator.
 #include "BenchmarkCases.h"
+
+#include "ReferenceContrast.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis::benchmark
 {
@@ -26,23 +30,40 @@ struct MapError
 /// What is fainter adds nothing to a map of perceived contrast with the default dark luminance,
 /// 0.1 cd/m2.
 constexpr double Faint = 1e-3;
+constexpr double Nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Views, as places in FloorMap's arrays of place and sign, whose contrast counts.
+std::vector<std::size_t> CountedViews(const FloorMap& reference)
+{
+  std::vector<std::size_t> views;
+  for (std::size_t i = 0; i < reference.Contrast.size(); ++i)
+  {
+    if (reference.SignLuminance[i] >= Faint)
+    {
+      views.push_back(i);
+    }
+  }
+  return views;
+}
+
+/// Errors of contrasts alone.
+/// @param contrast of all views
+MapError CompareContrast(const FloorMap& reference, const std::vector<float>& contrast)
+{
+  MapError error;
+  const std::vector<std::size_t> views = CountedViews(reference);
+  for (const std::size_t view : views)
+  {
+    const double difference = std::abs(contrast[view] - reference.Contrast[view]);
+    AddToRootMeanSquare(difference, static_cast<int>(views.size()), error.Contrast);
+    error.LargestContrast = std::max(error.LargestContrast, difference);
+  }
+  return error;
+}
 
 MapError Compare(const FloorMap& reference, const FloorMap& map)
 {
-  MapError error;
-  double signs = 0.0;
-  for (std::size_t i = 0; i < map.Contrast.size(); ++i)
-  {
-    if (reference.SignLuminance[i] < Faint)
-    {
-      continue;
-    }
-    const double difference = std::abs(map.Contrast[i] - reference.Contrast[i]);
-    signs += 1.0;
-    error.Contrast += difference * difference;
-    error.LargestContrast = std::max(error.LargestContrast, difference);
-  }
-  error.Contrast = std::sqrt(error.Contrast / std::max(1.0, signs));
+  MapError error = CompareContrast(reference, map.Contrast);
   double bars = 0.0;
   for (std::size_t i = 0; i < map.Visibility.size(); ++i)
   {
@@ -69,15 +90,53 @@ void Add(const MapError& error, int seeds, MapError& all)
   all.InErrorBars += error.InErrorBars / seeds;
 }
 
+/// Contrasts of the views that count by the reference integrator, 0 elsewhere.
+std::vector<float> PathTrace(const Scene& scene, const FloorMapOptions& places,
+  const FloorMap& reference, std::uint64_t samples, int threads)
+{
+  std::vector<float> contrast(reference.Contrast.size(), 0.0F);
+  const std::vector<std::size_t> views = CountedViews(reference);
+  ForAll(views.size(), threads,
+    [&](std::size_t i)
+    {
+      const std::size_t view = views[i];
+      contrast[view] = static_cast<float>(ReferenceContrast(
+        scene, places.EyeAt(view / reference.Signs), samples, view % reference.Signs)
+                                            .Mean);
+    });
+  return contrast;
+}
+
+/// Rows of the reference integrator's maps.
+void TraceMaps(const Settings& settings, const SceneDescription& description,
+  const FloorMapOptions& places, const FloorMap& reference, ResultTable& table)
+{
+  const Scene scene(description);
+  const ThreadLimit limit(settings.Threads);
+  for (const double samples : settings.Samples)
+  {
+    const StopWatch watch;
+    const std::vector<float> contrast =
+      PathTrace(scene, places, reference, static_cast<std::uint64_t>(samples), settings.Threads);
+    const double seconds = watch.Seconds();
+    const double processors = watch.Processors();
+    const MapError error = CompareContrast(reference, contrast);
+    table.Row({"reference integrator", Number(samples), "1", Number(settings.Threads),
+      Number(Nothing), Number(Nothing), Number(seconds), Number(seconds), Number(processors),
+      Number(error.Contrast), Number(error.LargestContrast), Number(Nothing), Number(Nothing),
+      Number(PeakMemory())});
+  }
+}
+
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
 void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine)
 {
   ResultTable table(settings.Out + "/" + name + ".csv",
-    {"tolerance", "seeds", "threads", "setup_s", "field_s", "map_s", "total_s", "processor_s",
-      "contrast_error", "largest_contrast_error", "visibility_error", "error_over_bar",
-      "peak_MiB"});
+    {"method", "setting", "seeds", "threads", "setup_s", "field_s", "map_s", "total_s",
+      "processor_s", "contrast_error", "largest_contrast_error", "visibility_error",
+      "error_over_bar", "peak_MiB"});
   const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
   const SceneDescription scene = fine ? FineHall(settings.Time) : Hall(settings.Time);
   // Ten million cells say enough of themselves, and take long.
@@ -111,8 +170,9 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
         Add(Compare(reference, map), seeds, error);
       }
     }
-    std::vector<std::string> row = {Number(tolerance), Number(seeds), Number(settings.Threads),
-      Number(setUp), Number(field), Number(look), Number(field + look), Number(processors)};
+    std::vector<std::string> row = {"solver", Number(tolerance), Number(seeds),
+      Number(settings.Threads), Number(setUp), Number(field), Number(look), Number(field + look),
+      Number(processors)};
     if (reference.Visibility.empty())
     {
       row.insert(row.end(), 4, "");
@@ -124,6 +184,10 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
     }
     row.push_back(Number(PeakMemory()));
     table.Row(row);
+  }
+  if (!reference.Visibility.empty())
+  {
+    TraceMaps(settings, scene, places, reference, table);
   }
 }
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/global_control.h>
-
 namespace smokevis::benchmark
 {
 
@@ -183,11 +181,7 @@ void RunTunnel(const Settings& settings)
       Number(field), Number(look), Number(field + look), Number(processors), Number(error.Pixel),
       Number(error.Veil), Number(error.VeilMean)});
   }
-  // The integrator's own tasks obey the process's limit, not the arena.
-  const tbb::global_control limitThreads(tbb::global_control::max_allowed_parallelism,
-    settings.Threads > 0
-      ? static_cast<std::size_t>(settings.Threads)
-      : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const ThreadLimit limitThreads(settings.Threads);
   for (const double perPixel : settings.Samples)
   {
     const StopWatch watch;

@@ -48,11 +48,13 @@ def plot_halls(folder):
               "hall10m": "12 x 8 places, 10 million cells"}
     if not any(maps.values()):
         return
-    figure, axis = pyplot.subplots(figsize=(6, 4))
-    for name, rows in maps.items():
-        if rows:
-            axis.loglog(numbers(rows, "processor_s"), numbers(rows, "contrast_error"), "o-",
-                        label=titles[name])
+    figure, axis = pyplot.subplots(figsize=(7, 5))
+    for index, (name, rows) in enumerate(maps.items()):
+        for method, style in (("solver", "o-"), ("reference integrator", "s--")):
+            chosen = [row for row in rows if row["method"] == method]
+            if chosen:
+                axis.loglog(numbers(chosen, "processor_s"), numbers(chosen, "contrast_error"),
+                            style, color=f"C{index}", label=f"{titles[name]}, {method}")
     axis.set(title="Hall with eight signs", xlabel="processor seconds (light field and map)",
              ylabel="error of contrast (rms)")
     axis.grid(True, which="both", alpha=0.3)

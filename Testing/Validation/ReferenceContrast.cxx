@@ -7,10 +7,10 @@ namespace smokevis
 {
 
 //--------------------------------------------------------------------------------------------------
-Estimate ReferenceContrast(const Scene& scene, const Vec3& eye, std::uint64_t samples)
+Estimate ReferenceContrast(
+  const Scene& scene, const Vec3& eye, std::uint64_t samples, std::size_t sign)
 {
   const ReferenceIntegrator reference(scene);
-  const Sign& sign = scene.Lights().Signs()[0];
   const std::vector<EmitterCell>& cells = scene.Lights().Cells();
   constexpr int Rows = 9;
   constexpr int Columns = 4;
@@ -20,7 +20,7 @@ Estimate ReferenceContrast(const Scene& scene, const Vec3& eye, std::uint64_t sa
   double lit = 0.0;
   double litNoise = 0.0;
   int points = 0;
-  for (const std::size_t cell : sign.Cells)
+  for (const std::size_t cell : scene.Lights().Signs()[sign].Cells)
   {
     const std::vector<Vec3>& corner = cells[cell].Vertices;
     for (int point = 0; point < Rows * Columns; ++point, ++points)
