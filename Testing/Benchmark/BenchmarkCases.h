@@ -21,14 +21,14 @@ struct Settings
 {
   /// Folder for the CSV files.
   std::string Out = ".";
-  std::vector<std::string> Cases;
+  std::vector<std::string> Cases = {};
   std::vector<double> Tolerances = {0.1, 0.03, 0.01, 0.003};
   /// Samples a pixel, or a point of a sign's raster, of the reference integrator; none: without it.
   std::vector<double> Samples = {1, 4, 16, 64};
   /// Threads of the solver; 0: all.
   int Threads = 0;
   /// Tolerance of the solutions that others are measured against.
-  double ReferenceTolerance = 0.001;
+  double ReferenceTolerance = 0.002;
   /// Solutions that each tolerance is tried with, of the seeds 1, 2, ..., at least one: times are
   /// their mean, errors their root mean square. What one of them happens to hit says little.
   int Seeds = 4;

@@ -139,8 +139,6 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
       "error_over_bar", "peak_MiB"});
   const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
   const SceneDescription scene = fine ? FineHall(settings.Time) : Hall(settings.Time);
-  // Ten million cells say enough of themselves, and take long.
-  const int seeds = fine ? 1 : settings.Seeds;
   Progress progress;
   FloorMap reference;
   if (settings.ReferenceTolerance > 0.0)
@@ -155,22 +153,22 @@ void RunHall(const Settings& settings, const std::string& name, int across, int 
     double look = 0.0;
     double processors = 0.0;
     MapError error;
-    for (int seed = 1; seed <= seeds; ++seed)
+    for (int seed = 1; seed <= settings.Seeds; ++seed)
     {
       const Solution solution =
         Solve(scene, tolerance, static_cast<std::uint64_t>(seed), settings.Threads);
       const StopWatch watch;
       const FloorMap map = ComputeFloorMap(*solution.TheView, places, progress);
-      setUp += solution.SetUpSeconds / seeds;
-      field += solution.FieldSeconds / seeds;
-      look += watch.Seconds() / seeds;
-      processors += (solution.FieldProcessors + watch.Processors()) / seeds;
+      setUp += solution.SetUpSeconds / settings.Seeds;
+      field += solution.FieldSeconds / settings.Seeds;
+      look += watch.Seconds() / settings.Seeds;
+      processors += (solution.FieldProcessors + watch.Processors()) / settings.Seeds;
       if (!reference.Visibility.empty())
       {
-        Add(Compare(reference, map), seeds, error);
+        Add(Compare(reference, map), settings.Seeds, error);
       }
     }
-    std::vector<std::string> row = {"solver", Number(tolerance), Number(seeds),
+    std::vector<std::string> row = {"solver", Number(tolerance), Number(settings.Seeds),
       Number(settings.Threads), Number(setUp), Number(field), Number(look), Number(field + look),
       Number(processors)};
     if (reference.Visibility.empty())
