@@ -467,8 +467,10 @@ SignMeasurement SignLook::Measure()
   result.VisibleFraction = this->Seen_ / this->All_;
   result.OpticalDepth /= this->Seen_;
   this->FillResult(parts);
-  if (result.ContrastError > UncertainContrast &&
-      result.LitLuminance >= FaintShare * this->Observer_.DarkLuminance)
+  const bool uncertain = result.ContrastError > UncertainContrast;
+  const bool lost = result.LitLuminance < FaintShare * this->Observer_.DarkLuminance;
+  result.LeftUncertain = uncertain && lost;
+  if (uncertain && !lost)
   {
     for (int band = 0; band < this->Bands_; ++band)
     {

@@ -41,6 +41,9 @@ struct SignMeasurement
   double OpticalDepth = 0.0;
   /// Rays that were gathered for the veil, where the light field knew it too badly.
   std::size_t Rays = 0;
+  /// Whether it knew it too badly, too, but the sign is lost in the eye's own noise: nothing was
+  /// gathered.
+  bool LeftUncertain = false;
 };
 
 /// Measures a sign (index into EmitterSet::Signs) from an eye point. Where the light field leaves

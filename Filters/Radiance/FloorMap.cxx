@@ -33,6 +33,7 @@ struct Counts
   std::atomic<std::size_t> CutOff{0};
   std::atomic<std::size_t> Hidden{0};
   std::atomic<std::size_t> Gathered{0};
+  std::atomic<std::size_t> Uncertain{0};
   std::atomic<std::size_t> Rays{0};
 };
 
@@ -85,6 +86,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
     }
     counts.Gathered += measured.Rays > 0 ? 1 : 0;
     counts.Rays += measured.Rays;
+    counts.Uncertain += measured.LeftUncertain ? 1 : 0;
     const std::size_t index = place * map.Signs + sign;
     map.Contrast[index] = static_cast<float>(measured.Contrast);
     map.PerceivedContrast[index] = static_cast<float>(measured.PerceivedContrast);
@@ -155,6 +157,8 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   say("views of signs computed", views - left - counts.Hidden, "the sign is in view");
   say(
     "views of signs gathered for", counts.Gathered, "the light field left the contrast uncertain");
+  say("views of signs not gathered for", counts.Uncertain,
+    "their contrast is as uncertain, but they are lost in the eye's own noise");
   say("rays gathered by views of signs", counts.Rays, "they tell the veil in the dark");
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");

@@ -127,17 +127,23 @@ void RunThreads(const Settings& settings)
   ResultTable table(
     settings.Out + "/threads.csv", {"part", "one_thread_s", "two_threads_s", "ratio"});
   const SceneDescription scene = Hall(settings.Time);
-  std::array<double, 2> field{};
-  std::array<double, 2> map{};
-  for (const int threads : {1, 2})
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 2> field{Infinity, Infinity};
+  std::array<double, 2> map{Infinity, Infinity};
+  // By turns; the shortest of each counts.
+  constexpr int Turns = 3;
+  for (int turn = 0; turn < Turns; ++turn)
   {
-    const auto which = static_cast<std::size_t>(threads - 1);
-    const Solution solution = Solve(scene, 0.01, 1, threads);
-    field[which] = solution.FieldSeconds;
-    Progress progress;
-    const StopWatch watch;
-    ComputeFloorMap(*solution.TheView, HallPlaces(12, 8, threads), progress);
-    map[which] = watch.Seconds();
+    for (const int threads : {1, 2})
+    {
+      const auto which = static_cast<std::size_t>(threads - 1);
+      const Solution solution = Solve(scene, 0.01, 1, threads);
+      field[which] = std::min(field[which], solution.FieldSeconds);
+      Progress progress;
+      const StopWatch watch;
+      ComputeFloorMap(*solution.TheView, HallPlaces(12, 8, threads), progress);
+      map[which] = std::min(map[which], watch.Seconds());
+    }
   }
   table.Row({"hall light field", Number(field[0]), Number(field[1]), Number(field[0] / field[1])});
   table.Row({"hall map 12 x 8", Number(map[0]), Number(map[1]), Number(map[0] / map[1])});

@@ -62,20 +62,10 @@ void CompareFields(
     LargestChange(plain.Field->DirectIlluminance, other.Field->DirectIlluminance, number),
     tolerance);
   // The same lines are drawn.
-  report::Absolute("multiple fluence, whole scene", 0.0,
-    std::abs(LargestChange(std::vector<double>{1.0},
-      std::vector<double>{[&]
-        {
-          double a = 0.0;
-          double b = 0.0;
-          for (std::size_t i = 0; i < plain.Field->MultipleFluence.size(); ++i)
-          {
-            a += mean(plain.Field->MultipleFluence[i]);
-            b += mean(other.Field->MultipleFluence[i]);
-          }
-          return b / a;
-        }()},
-      [](double value) { return value; })),
+  report::Absolute("multiple fluence", 0.0,
+    LargestChange(plain.Field->MultipleFluence, other.Field->MultipleFluence, mean), tolerance);
+  report::Absolute("multiple illuminance", 0.0,
+    LargestChange(plain.Field->MultipleIlluminance, other.Field->MultipleIlluminance, mean),
     tolerance);
   const SignMeasurement a = MeasureSign(*plain.TheView, 0, Eye, Observer{0.0});
   const SignMeasurement b = MeasureSign(*other.TheView, 0, scale * Eye + offset, Observer{0.0});
