@@ -323,9 +323,11 @@ void vtkVisibilityImage::Report(const Shot& shot, const smokevis::SignMeasuremen
     shot.Image.LensPoints > 0 ? "the picture is the mean over the aperture"
                               : "without LensBlur the lens is a pinhole"});
   report.push_back({"rays gathered by the sign's view", static_cast<double>(sign.Rays),
-    sign.Rays > 0        ? "the light field left its contrast uncertain"
-    : sign.LeftUncertain ? "its contrast is uncertain, but it is lost in the eye's own noise"
-                         : "the light field tells its contrast"});
+    sign.Rays > 0 ? "the light field left its contrast uncertain"
+    : sign.LeftUncertain
+      ? "its contrast is uncertain, but lost in the eye's own noise, or no smoke scatters"
+    : sign.InView ? "the light field tells its contrast"
+                  : "no target sign is in view"});
   smokevis::AddWorkReport(output, report);
   smokevis::ReportRanks(
     *output.GetFieldData(), {{"seconds", seconds, "tracing its pixels, but for waiting"}});

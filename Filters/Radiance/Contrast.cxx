@@ -18,7 +18,7 @@ namespace
 constexpr double BlocksAcross = 8.0;
 /// Standard error of the contrast above which the veil is gathered.
 constexpr double UncertainContrast = 0.005;
-/// A sign whose lit parts are fainter than this share of the observer's own noise is not worth
+/// A sign whose parts are all fainter than this share of the observer's own noise is not worth
 /// gathering for: it stands out by a hundredth at most.
 constexpr double FaintShare = 0.01;
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
@@ -468,8 +468,8 @@ SignMeasurement SignLook::Measure()
   result.OpticalDepth /= this->Seen_;
   this->FillResult(parts);
   const bool uncertain = result.ContrastError > UncertainContrast;
-  const bool lost = result.LitLuminance < FaintShare * this->Observer_.DarkLuminance;
-  result.LeftUncertain = uncertain && lost;
+  const bool lost = std::max(result.LitLuminance, result.UnlitLuminance) <
+                    FaintShare * this->Observer_.DarkLuminance;
   if (uncertain && !lost)
   {
     for (int band = 0; band < this->Bands_; ++band)
@@ -478,6 +478,7 @@ SignMeasurement SignLook::Measure()
     }
     this->FillResult(parts);
   }
+  result.LeftUncertain = uncertain && result.Rays == 0;
   return result;
 }
 

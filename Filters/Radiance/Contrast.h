@@ -41,8 +41,8 @@ struct SignMeasurement
   double OpticalDepth = 0.0;
   /// Rays that were gathered for the veil, where the light field knew it too badly.
   std::size_t Rays = 0;
-  /// Whether it knew it too badly, too, but the sign is lost in the eye's own noise: nothing was
-  /// gathered.
+  /// Whether it knew it too badly, but nothing was gathered: the sign is lost in the eye's own
+  /// noise, or no smoke scatters light on the way to it.
   bool LeftUncertain = false;
 };
 

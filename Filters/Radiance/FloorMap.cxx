@@ -158,7 +158,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   say(
     "views of signs gathered for", counts.Gathered, "the light field left the contrast uncertain");
   say("views of signs not gathered for", counts.Uncertain,
-    "their contrast is as uncertain, but they are lost in the eye's own noise");
+    "as uncertain, but lost in the eye's own noise, or no smoke scatters on the way");
   say("rays gathered by views of signs", counts.Rays, "they tell the veil in the dark");
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");

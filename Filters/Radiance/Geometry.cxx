@@ -126,8 +126,9 @@ TriangleTree::TriangleTree(const Device& device, const SurfaceMesh& mesh, bool e
       glm::cross(mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
   }
   rtcCommitGeometry(geometry);
-  // A scene refers to its device, so that this may end before it.
-  this->Tree_ = {rtcNewScene(device.get()), rtcReleaseScene};
+  // Embree 3 uses the device while it takes a scene apart, but holds on to it only until then: it
+  // has to end after the scene.
+  this->Tree_ = {rtcNewScene(device.get()), [device](RTCScene scene) { rtcReleaseScene(scene); }};
   rtcSetSceneFlags(this->Tree_.get(),
     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   rtcAttachGeometry(this->Tree_.get(), geometry);

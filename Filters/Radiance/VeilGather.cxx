@@ -3,8 +3,8 @@
 #include "Sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <glm/gtc/constants.hpp>
 
@@ -90,25 +90,41 @@ void FindShares(const IndirectLight& light, std::vector<Piece>& pieces)
   }
 }
 
-/// Of the lines and of the field, so that rays of different ones are independent.
-std::uint64_t KeyOf(
-  const IndirectLight& light, const Vec3& origin, const std::vector<Piece>& pieces)
+/// Of the lines and of the field, so that rays of different ones are independent; but of nothing
+/// that the unit of length, the place of the origin or the brightness of all lights changes.
+std::uint64_t KeyOf(const IndirectLight& light, const std::vector<Piece>& pieces)
 {
   std::uint64_t key = 0;
-  const auto fold = [&key](auto bits) { key = Mix(key + bits); };
-  const auto foldPoint = [&fold](const Vec3& point)
+  const auto fold = [&key](double share)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      fold(std::bit_cast<std::uint64_t>(point[axis]));
-    }
+    // As fine as tells lines apart, and far above what rounding changes.
+    constexpr double Steps = 1 << 20;
+    key = Mix(key + static_cast<std::uint64_t>(std::llround(share * Steps)));
   };
-  foldPoint(origin);
+  DoubleLanes seen{};
+  Vec3 before(0.0);
+  double weights = 0.0;
   for (const Piece& piece : pieces)
   {
-    foldPoint(piece.Direction);
+    if (piece.Direction != before)
+    {
+      before = piece.Direction;
+      fold(before.x);
+      fold(before.y);
+      fold(before.z);
+    }
+    weights += piece.Weight;
     const std::size_t index = light.Field().CellIndex(light.Band(), piece.Cell);
-    fold(std::bit_cast<std::uint32_t>(light.Field().MultipleFluence[index][0]));
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      seen[batch] += piece.Weight * light.Field().MultipleFluence[index][batch];
+    }
+  }
+  fold(weights);
+  const double all = std::accumulate(seen.begin(), seen.end(), 0.0);
+  for (const double one : seen)
+  {
+    fold(all > 0.0 ? one / all : 0.0);
   }
   return key;
 }
@@ -141,7 +157,7 @@ GatheredVeil GatherVeil(
     return veil;
   }
   FindShares(light, pieces);
-  const std::uint64_t key = KeyOf(light, origin, pieces);
+  const std::uint64_t key = KeyOf(light, pieces);
   for (int batch = 0; batch < Batches; ++batch)
   {
     const EvenPoints points(Mix(key + batch));

@@ -201,13 +201,13 @@ void RunSteps(const Settings& settings)
     { return smoke.OpticalDepth(ray.Origin, ray.Direction, 0.0, end); });
   // The same rays through cells of a fifth of the length: what memory makes of a step.
   const Medium fine(FineHall(settings.Time).Grids);
-  measure("optical depth, ten million cells", crossed(fine),
+  measure("optical depth in ten million cells", crossed(fine),
     [&](const Ray& ray, double end)
     { return fine.OpticalDepth(ray.Origin, ray.Direction, 0.0, end); });
   measure("first hit", cells,
     [&](const Ray& ray, double)
     { return solution.TheView->FirstHit(ray.Origin, ray.Direction, Far).Distance; });
-  measure("luminance of a ray, one thread", cells,
+  measure("luminance of a ray on one thread", cells,
     [&](const Ray& ray, double end)
     { return solution.TheView->TraceVeil(ray.Origin, ray.Direction, 0.0, end, 0).Veil(); });
   if (!std::isfinite(sum))

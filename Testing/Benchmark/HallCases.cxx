@@ -22,8 +22,8 @@ struct MapError
   double LargestContrast = 0.0;
   /// Root mean square of the map itself, the largest perceived contrast of a place.
   double Visibility = 0.0;
-  /// Over those signs that the first one counts, the mean of |error| / (reported error) of the map;
-  /// 0.8 where error bars are true.
+  /// Over places whose best sign is the reference's, too, the mean of |error| / (reported error) of
+  /// the map; 0.8 where error bars are true.
   double InErrorBars = 0.0;
 };
 
@@ -124,7 +124,7 @@ void TraceMaps(const Settings& settings, const SceneDescription& description,
     table.Row({"reference integrator", Number(samples), "1", Number(settings.Threads),
       Number(Nothing), Number(Nothing), Number(seconds), Number(seconds), Number(processors),
       Number(error.Contrast), Number(error.LargestContrast), Number(Nothing), Number(Nothing),
-      Number(PeakMemory())});
+      Number(Nothing)});
   }
 }
 

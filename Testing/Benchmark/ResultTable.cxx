@@ -30,6 +30,10 @@ void ResultTable::Row(const std::vector<std::string>& cells)
   std::string line;
   for (const std::string& cell : cells)
   {
+    if (cell.find(',') != std::string::npos)
+    {
+      throw std::logic_error("a comma in a cell: " + cell);
+    }
     line += (line.empty() ? "" : ",") + cell;
   }
   this->File_ << line << std::endl;

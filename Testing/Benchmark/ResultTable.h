@@ -17,7 +17,7 @@ class ResultTable
 public:
   ResultTable(const std::string& path, const std::vector<std::string>& columns);
 
-  /// As many cells as there are columns.
+  /// As many cells as there are columns, without commas.
   void Row(const std::vector<std::string>& cells);
 
 private:

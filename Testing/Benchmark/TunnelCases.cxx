@@ -153,11 +153,11 @@ void RunTunnel(const Settings& settings)
   const auto samples =
     static_cast<std::uint64_t>(std::pow(13.0 / (5.0 * settings.ReferenceTolerance), 2));
   const Estimate check = DarkMean(*limit.TheScene, picture, samples);
-  table.Row(
-    {"reference against integrator, standard error " + Number(check.StandardError / check.Mean),
-      Number(settings.ReferenceTolerance), "1", Number(settings.Threads),
-      Number(limit.FieldSeconds), Number(Nothing), Number(Nothing), Number(Nothing),
-      Number(Nothing), Number(Nothing), Number(limitDark / count / check.Mean - 1.0)});
+  table.Row({"reference against integrator (standard error " +
+               Number(check.StandardError / check.Mean) + ")",
+    Number(settings.ReferenceTolerance), "1", Number(settings.Threads), Number(limit.FieldSeconds),
+    Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing), Number(Nothing),
+    Number(limitDark / count / check.Mean - 1.0)});
 
   for (const double tolerance : settings.Tolerances)
   {

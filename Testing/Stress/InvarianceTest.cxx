@@ -37,6 +37,7 @@ double LargestChange(const std::vector<T>& plain, const std::vector<T>& other, c
   double largest = 0.0;
   for (const T& item : plain)
   {
+    EXPECT_TRUE(std::isfinite(value(item)));
     largest = std::max(largest, value(item));
   }
   double worst = 0.0;
@@ -45,7 +46,9 @@ double LargestChange(const std::vector<T>& plain, const std::vector<T>& other, c
     const double a = value(plain[i]);
     if (a > 1e-6 * largest)
     {
-      worst = std::max(worst, std::abs(value(other[i]) - a) / a);
+      const double change = std::abs(value(other[i]) - a) / a;
+      EXPECT_TRUE(std::isfinite(change)) << i;
+      worst = std::max(worst, change);
     }
   }
   return worst;

@@ -95,19 +95,28 @@ TEST(VeilGather, MeanOverLines)
   EXPECT_NEAR(Mean(veil.Multiple) / (0.3 * SkyLuminance * -std::expm1(-depth)), 1.0, 2e-6);
 }
 
-// Rays of the same line through the same light are the same, those through other light are not.
+// Rays of the same line through the same light are the same, those through light of which one batch
+// is another are not.
 TEST(VeilGather, RaysBelongToTheField)
 {
   const auto scene = std::make_shared<const Scene>(WhiteCloud());
   const std::vector<SightLine> line = {{{1.0, 0.0, 0.0}, 9.0}};
   const Vec3 origin(-0.5, 0.3, 0.4);
-  const auto gathered = [&](double fluence)
-  { return View(scene, EvenField(*scene, fluence)).GatherVeil(origin, line, 0).Multiple; };
+  const auto gathered = [&](double ofFirstBatch)
+  {
+    const std::shared_ptr<LightField> field = EvenField(*scene, 1.0);
+    for (Lanes& lanes : field->MultipleFluence)
+    {
+      lanes[0] = static_cast<float>(ofFirstBatch);
+    }
+    return View(scene, field).GatherVeil(origin, line, 0).Multiple;
+  };
   const Lanes first = gathered(1.0);
   const Lanes again = gathered(1.0);
-  const Lanes other = gathered(1.0 + 1e-6);
+  const Lanes other = gathered(1.001);
   EXPECT_GT(StandardError(first), 0.0);
-  for (int batch = 0; batch < Batches; ++batch)
+  EXPECT_EQ(first[0], again[0]);
+  for (int batch = 1; batch < Batches; ++batch)
   {
     EXPECT_EQ(first[batch], again[batch]);
     EXPECT_GT(std::abs(other[batch] - first[batch]), 1e-5F * first[batch]);

@@ -106,7 +106,7 @@ void CheckProfiles(double opticalSide, double albedo)
 }
 
 // The published table of the conservative square, along its centre line, between the centres of the
-// cells; closer to the wall than the first of them it is steeper than a cell.
+// cells; closer to the wall than the first of them it is steeper than a cell. 1 % as above.
 TEST(Enclosure, PublishedConservativeSquare)
 {
   report::Head("Square enclosure, side 1, albedo 1, published");

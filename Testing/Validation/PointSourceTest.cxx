@@ -131,14 +131,16 @@ TEST(PointSource, AirlightOfSingleScattering)
   }
 }
 
-// The same by the function F(u, v) of Sun et al.: a ray that passes a source at u mean free paths
-// and is seen under angles, from the source, between two of the table's v gathers
-// exp(-T cos(gamma)) / (2 pi u) (F(u, v2) - F(u, v1)), where gamma = 2 v1 and T = u / sin(gamma).
+// The same by the function F(u, v) of Sun et al.: a ray at gamma = 2 v1 from the way to a source at
+// T = u / sin(gamma) mean free paths passes it at u. As far as where the source sees it at 2 v2 -
+// 90 degrees beyond the foot of the perpendicular, it gathers exp(-T cos(gamma)) / (2 pi u) (F(u,
+// v2) - F(u, v1)).
 TEST(PointSource, AirlightByTheFunctionF)
 {
   report::Head("Airlight of a point source by F(u, v)");
   const report::ReferenceTable table("airlight_F_function.csv");
   constexpr double Degree = Pi / 180.0;
+  int rows = 0;
   for (std::size_t from = 0; from < table.Rows(); ++from)
   {
     const double u = table.Number(from, "u");
@@ -150,7 +152,7 @@ TEST(PointSource, AirlightByTheFunctionF)
     }
     const Airlight airlight(distance);
     const double along = distance * std::cos(angle * Degree);
-    for (std::size_t to = from + 1; to < table.Rows() && table.Number(to, "u") == u; ++to)
+    for (std::size_t to = from + 1; to < table.Rows() && table.Number(to, "u") == u; ++to, ++rows)
     {
       const double end = 2.0 * table.Number(to, "v_deg") - 90.0;
       airlight.Check("u " + table.Text(from, "u") + " v " + table.Text(from, "v_deg") + " to " +
@@ -159,6 +161,7 @@ TEST(PointSource, AirlightByTheFunctionF)
         std::exp(-along) / (2.0 * Pi * u) * (table.Number(to, "F") - table.Number(from, "F")));
     }
   }
+  EXPECT_GT(rows, 40);
 }
 
 // Fluence of 1 lm in an infinite medium (Case, de Hoffmann and Placzek 1953), read on the axes at

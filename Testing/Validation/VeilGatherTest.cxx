@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -139,6 +140,43 @@ TEST(VeilGather, DarkHall)
   compare("gathered veil", anew, Seeds);
   compare("mean luminance of the sign", luminance, luminances.size());
   compare("contrast", contrast, contrasts.size());
+}
+
+// What is gathered depends neither on the unit of length nor on the place of the origin or the
+// brightness of all lights: to 1e-5, or 1e-4 a million metres off.
+TEST(VeilGather, UnitOfLengthPlaceAndBrightness)
+{
+  report::Head("Sign in the dark, scaled, moved and brighter");
+  const SceneDescription plain = DarkHall(1);
+  const auto compare = [&plain](const std::string& name, const SceneDescription& other,
+                         double scale, const Vec3& offset, double times, double tolerance)
+  {
+    const Solved a(plain, 0.1);
+    const Solved b(other, 0.1);
+    const SignMeasurement one = MeasureSign(*a.TheView, 0, Eye, Observer{0.0});
+    const SignMeasurement two = MeasureSign(*b.TheView, 0, scale * Eye + offset, Observer{0.0});
+    EXPECT_GT(one.Rays, 0U);
+    EXPECT_EQ(one.Rays, two.Rays);
+    report::Relative(
+      name + ": mean luminance", times * one.MeanLuminance, two.MeanLuminance, tolerance);
+    report::Relative(name + ": contrast", one.Contrast, two.Contrast, tolerance);
+  };
+  for (const double scale : {1e-3, 1e3})
+  {
+    compare(
+      "times " + std::to_string(scale), scenes::Scaled(plain, scale), scale, Vec3(0.0), 1.0, 1e-5);
+  }
+  const Vec3 offset(1e6, -1e6, 1e6);
+  compare("moved", scenes::Moved(plain, offset), 1.0, offset, 1.0, 1e-4);
+  SceneDescription bright = plain;
+  for (EmitterCell& cell : bright.Emitters)
+  {
+    for (double& luminance : cell.Luminance)
+    {
+      luminance *= 3.7;
+    }
+  }
+  compare("brighter", bright, 1.0, Vec3(0.0), 3.7, 1e-5);
 }
 
 /// A row of a map's report.
