@@ -48,7 +48,7 @@ def plot_halls(folder):
               "hall10m": "12 x 8 places, 10 million cells"}
     if not any(maps.values()):
         return
-    figure, axis = pyplot.subplots(figsize=(7, 5))
+    figure, axis = pyplot.subplots(figsize=(7, 6))
     for index, (name, rows) in enumerate(maps.items()):
         for method, style in (("solver", "o-"), ("reference integrator", "s--")):
             chosen = [row for row in rows if row["method"] == method]
@@ -58,7 +58,7 @@ def plot_halls(folder):
     axis.set(title="Hall with eight signs", xlabel="processor seconds (light field and map)",
              ylabel="error of contrast (rms)")
     axis.grid(True, which="both", alpha=0.3)
-    axis.legend()
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, fontsize="small")
     save(figure, folder, "hall")
 
 
