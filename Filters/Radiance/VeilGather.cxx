@@ -95,12 +95,11 @@ void FindShares(const IndirectLight& light, std::vector<Piece>& pieces)
 std::uint64_t KeyOf(const IndirectLight& light, const std::vector<Piece>& pieces)
 {
   std::uint64_t key = 0;
-  const auto fold = [&key](double share)
-  {
-    // As fine as tells lines apart, and far above what rounding changes.
-    constexpr double Steps = 1 << 20;
-    key = Mix(key + static_cast<std::uint64_t>(std::llround(share * Steps)));
-  };
+  // Steps far above what rounding changes: lines are known to double precision, light to single.
+  constexpr double LineSteps = 1 << 20;
+  constexpr double LightSteps = 1 << 10;
+  const auto fold = [&key](double share, double steps)
+  { key = Mix(key + static_cast<std::uint64_t>(std::llround(share * steps))); };
   DoubleLanes seen{};
   Vec3 before(0.0);
   double weights = 0.0;
@@ -109,9 +108,9 @@ std::uint64_t KeyOf(const IndirectLight& light, const std::vector<Piece>& pieces
     if (piece.Direction != before)
     {
       before = piece.Direction;
-      fold(before.x);
-      fold(before.y);
-      fold(before.z);
+      fold(before.x, LineSteps);
+      fold(before.y, LineSteps);
+      fold(before.z, LineSteps);
     }
     weights += piece.Weight;
     const std::size_t index = light.Field().CellIndex(light.Band(), piece.Cell);
@@ -120,11 +119,11 @@ std::uint64_t KeyOf(const IndirectLight& light, const std::vector<Piece>& pieces
       seen[batch] += piece.Weight * light.Field().MultipleFluence[index][batch];
     }
   }
-  fold(weights);
+  fold(weights, LineSteps);
   const double all = std::accumulate(seen.begin(), seen.end(), 0.0);
   for (const double one : seen)
   {
-    fold(all > 0.0 ? one / all : 0.0);
+    fold(all > 0.0 ? one / all : 0.0, LightSteps);
   }
   return key;
 }
