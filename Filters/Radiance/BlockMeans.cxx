@@ -74,7 +74,7 @@ BlockMeans::BlockMeans(const std::vector<BatchState>& batches, const Scene& scen
       block = block * count + std::clamp(static_cast<int>(count * place[axis]), 0, count - 1);
     }
     shares[i] = {
-      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.CellVolume(cell)};
+      block, std::max(least, scene.Albedo() * smoke.Extinction(cell)) * smoke.OwnVolume(cell)};
   };
   arena.execute(
     [&]

@@ -70,8 +70,8 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   this->Extinction_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    const double own = smoke.CellVolume(static_cast<std::int64_t>(cell));
-    this->InverseVolume_[cell] = static_cast<float>(1.0 / own);
+    const double own = smoke.OwnVolume(static_cast<std::int64_t>(cell));
+    this->InverseVolume_[cell] = own > 0.0 ? static_cast<float>(1.0 / own) : 0.0F;
     this->Extinction_[cell] =
       static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
   }

@@ -70,6 +70,13 @@ void CheckGrid(const SmokeGrid& grid)
   check(grid.EmittedLuminance, "the emitted luminance");
 }
 
+/// Of two boxes.
+double SharedVolume(const Box& a, const Box& b)
+{
+  const Vec3 size = glm::max(glm::min(a.Upper, b.Upper) - glm::max(a.Lower, b.Lower), Vec3(0.0));
+  return size.x * size.y * size.z;
+}
+
 } // namespace
 
 int Medium::Grid::Index(int axis, double coordinate) const
@@ -171,13 +178,17 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
   std::iota(this->Rank_.begin(), this->Rank_.end(), 0);
   std::stable_sort(this->Rank_.begin(), this->Rank_.end(),
     [this](int a, int b) { return this->Grids_[a].Fineness < this->Grids_[b].Fineness; });
-  for (std::size_t a = 0; a < this->Grids_.size() && !this->Overlap_; ++a)
+  for (std::size_t coarse = 0; coarse < this->Rank_.size(); ++coarse)
   {
-    for (std::size_t b = 0; b < a && !this->Overlap_; ++b)
+    Grid& grid = this->Grids_[this->Rank_[coarse]];
+    for (std::size_t fine = 0; fine < coarse; ++fine)
     {
-      const Vec3 lower = glm::max(this->Grids_[a].Bounds.Lower, this->Grids_[b].Bounds.Lower);
-      const Vec3 upper = glm::min(this->Grids_[a].Bounds.Upper, this->Grids_[b].Bounds.Upper);
-      this->Overlap_ = glm::all(glm::lessThan(lower, upper));
+      const Box& over = this->Grids_[this->Rank_[fine]].Bounds;
+      if (SharedVolume(grid.Bounds, over) > 0.0)
+      {
+        grid.Finer.push_back(over);
+        this->Overlap_ = true;
+      }
     }
   }
 }
@@ -251,6 +262,53 @@ double Medium::CellVolume(std::int64_t cell) const
   }
   const Vec3 size = this->CellSize(cell);
   return size.x * size.y * size.z;
+}
+
+double Medium::OwnVolume(std::int64_t cell) const
+{
+  constexpr double LeastShare = 1e-9;
+  std::array<int, 3> index;
+  const Grid& grid = this->GridOf(cell, index);
+  const double volume = this->CellVolume(cell);
+  if (grid.Finer.empty())
+  {
+    return volume;
+  }
+  const Box box = this->BoxOf(this->Parts_.CellOf(cell));
+  // Where finer grids begin and end parts the cell into boxes that each belong to one grid.
+  std::array<std::vector<double>, 3> borders;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    borders[axis] = {box.Lower[axis], box.Upper[axis]};
+    for (const Box& over : grid.Finer)
+    {
+      for (const double border : {over.Lower[axis], over.Upper[axis]})
+      {
+        if (border > box.Lower[axis] && border < box.Upper[axis])
+        {
+          borders[axis].push_back(border);
+        }
+      }
+    }
+    std::sort(borders[axis].begin(), borders[axis].end());
+  }
+  double own = 0.0;
+  for (std::size_t k = 1; k < borders[2].size(); ++k)
+  {
+    for (std::size_t j = 1; j < borders[1].size(); ++j)
+    {
+      for (std::size_t i = 1; i < borders[0].size(); ++i)
+      {
+        const Vec3 lower(borders[0][i - 1], borders[1][j - 1], borders[2][k - 1]);
+        const Vec3 upper(borders[0][i], borders[1][j], borders[2][k]);
+        const bool covered = std::any_of(grid.Finer.begin(), grid.Finer.end(),
+          [middle = 0.5 * (lower + upper)](const Box& over) { return over.Contains(middle); });
+        own += covered ? 0.0 : SharedVolume({lower, upper}, box);
+      }
+    }
+  }
+  const double share = own / SharedVolume(box, box);
+  return share > LeastShare ? share * volume : 0.0;
 }
 
 double Medium::MeanChord(std::int64_t cell) const

@@ -75,6 +75,8 @@ public:
   /// Edges; of a part those of a box that is as far spread along each axis.
   Vec3 CellSize(std::int64_t cell) const;
   double CellVolume(std::int64_t cell) const;
+  /// Volume without what finer grids lie over: what rays meet of a cell. 0 below a billionth.
+  double OwnVolume(std::int64_t cell) const;
   /// Mean length of the isotropic chords of a convex cell, 4 V / S (Cauchy) [m].
   double MeanChord(std::int64_t cell) const;
   /// Whether a finer grid lies over a part of the cell.
@@ -181,6 +183,8 @@ private:
     ClearBricks Clear;
     /// Whether rays look for them.
     bool Leaps = false;
+    /// Bounds of finer grids that lie over a part of it.
+    std::vector<Box> Finer;
 
     int Index(int axis, double coordinate) const;
     std::int64_t Cell(const std::array<int, 3>& index) const

@@ -42,7 +42,7 @@ PowerBalance::PowerBalance(
   for (std::size_t cell = 0; cell < field.Cells; ++cell)
   {
     this->Capture_[cell] = static_cast<float>(
-      smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.CellVolume(cell));
+      smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.OwnVolume(cell));
   }
   this->HardlyLoses_ =
     1.0 - scene.Albedo() <= SmallestLoss || !(scene.Smoke().MaximumExtinction() > 0.0F);

@@ -72,7 +72,7 @@ public:
     {
       const auto cell = static_cast<std::int64_t>(i);
       const double weight = (1.0 - this->TheScene->Albedo()) * this->TheScene->ExtinctionScale(0) *
-                            smoke.Extinction(cell) * smoke.CellVolume(cell);
+                            smoke.Extinction(cell) * smoke.OwnVolume(cell);
       const std::size_t index = this->Field->CellIndex(0, cell);
       direct += weight * this->Field->DirectFluence[index];
       multiple.Add(this->Field->MultipleFluence[index], weight);
