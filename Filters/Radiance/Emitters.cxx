@@ -180,13 +180,17 @@ void EmitterSet::FindSigns()
   for (auto& [id, sign] : signs)
   {
     sign.Id = id;
+    double faces = 0.0;
     for (const std::size_t cell : sign.Cells)
     {
       sign.Normal += this->Areas_[cell] * this->Normals_[cell];
+      faces += this->Areas_[cell];
     }
-    // Cells that face all ways have no common front: the first one's stands for them.
+    // Cells that face all ways have no common front but what rounding leaves: the first one's
+    // stands for them.
+    constexpr double Rounding = 1e-6;
     const Vec3 first = this->Normals_[sign.Cells.front()];
-    sign.Normal = glm::length(sign.Normal) > 0.0 ? glm::normalize(sign.Normal) : first;
+    sign.Normal = glm::length(sign.Normal) > Rounding * faces ? glm::normalize(sign.Normal) : first;
     const std::vector<Vec3>& vertices = this->Cells_[sign.Cells.front()].Vertices;
     const Vec3 edge = vertices[1] - vertices[0];
     const Vec3 u = glm::normalize(edge - glm::dot(edge, sign.Normal) * sign.Normal);
@@ -194,7 +198,6 @@ void EmitterSet::FindSigns()
     glm::dvec2 low(1e300);
     glm::dvec2 high(-1e300);
     double depth = 0.0;
-    double area = 0.0;
     for (const std::size_t cell : sign.Cells)
     {
       for (const Vec3& vertex : this->Cells_[cell].Vertices)
@@ -204,9 +207,8 @@ void EmitterSet::FindSigns()
         high = glm::max(high, at);
       }
       depth += this->Areas_[cell] * glm::dot(this->Centres_[cell] - vertices[0], sign.Normal);
-      area += this->Areas_[cell];
     }
-    const Vec3 base = vertices[0] + depth / area * sign.Normal;
+    const Vec3 base = vertices[0] + depth / faces * sign.Normal;
     sign.Corners = {base + low.x * u + low.y * v, base + high.x * u + low.y * v,
       base + high.x * u + high.y * v, base + low.x * u + high.y * v};
     sign.Centre = 0.5 * (sign.Corners[0] + sign.Corners[2]);

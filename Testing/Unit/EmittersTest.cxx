@@ -2,6 +2,7 @@
 #include "Emitters.h"
 #include "PolygonLight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -95,6 +96,25 @@ void AddLeaves(
 }
 
 // The lit cells of a sign form one light, each lamp is one, dark cells none.
+// Faces back to back cancel but for rounding, however they are tilted: the first one's front
+// counts.
+TEST(Emitters, SignWithTwoFaces)
+{
+  for (int tilt = 1; tilt < 200; ++tilt)
+  {
+    const Vec3 u(std::cos(0.1 * tilt), std::sin(0.1 * tilt), 0.0);
+    const Vec3 v = glm::normalize(glm::cross(u, Vec3(std::sin(0.07 * tilt), 0.3, 1.0)));
+    EmitterCell front = Rectangle(0, 1, 0, 1, 1.0, 0);
+    front.Vertices = {
+      Vec3(0.1), Vec3(0.1) + 0.6 * u, Vec3(0.1) + 0.6 * u + 0.2 * v, Vec3(0.1) + 0.2 * v};
+    EmitterCell back = front;
+    std::reverse(back.Vertices.begin(), back.Vertices.end());
+    const EmitterSet set({front, back}, 1, AnySize);
+    EXPECT_GT(glm::dot(set.Signs()[0].Normal, set.CellNormal(0)), 1.0 - 1e-9) << tilt;
+    EXPECT_NEAR(set.Signs()[0].Radius, 0.5 * std::hypot(0.6, 0.2), 1e-9) << tilt;
+  }
+}
+
 TEST(Emitters, LightsAndTheirGroups)
 {
   std::vector<EmitterCell> cells;
