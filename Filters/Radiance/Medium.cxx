@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -266,29 +267,27 @@ double Medium::CellVolume(std::int64_t cell) const
 
 double Medium::OwnVolume(std::int64_t cell) const
 {
-  constexpr double LeastShare = 1e-9;
+  const double volume = this->CellVolume(cell);
   std::array<int, 3> index;
   const Grid& grid = this->GridOf(cell, index);
-  const double volume = this->CellVolume(cell);
-  if (grid.Finer.empty())
+  // A part is covered as its cell is.
+  const Box box = this->BoxOf(this->Parts_.CellOf(cell));
+  std::vector<Box> finer;
+  std::copy_if(grid.Finer.begin(), grid.Finer.end(), std::back_inserter(finer),
+    [&box](const Box& over) { return SharedVolume(box, over) > 0.0; });
+  if (finer.empty())
   {
     return volume;
   }
-  const Box box = this->BoxOf(this->Parts_.CellOf(cell));
   // Where finer grids begin and end parts the cell into boxes that each belong to one grid.
   std::array<std::vector<double>, 3> borders;
   for (int axis = 0; axis < 3; ++axis)
   {
     borders[axis] = {box.Lower[axis], box.Upper[axis]};
-    for (const Box& over : grid.Finer)
+    for (const Box& over : finer)
     {
-      for (const double border : {over.Lower[axis], over.Upper[axis]})
-      {
-        if (border > box.Lower[axis] && border < box.Upper[axis])
-        {
-          borders[axis].push_back(border);
-        }
-      }
+      borders[axis].push_back(std::clamp(over.Lower[axis], box.Lower[axis], box.Upper[axis]));
+      borders[axis].push_back(std::clamp(over.Upper[axis], box.Lower[axis], box.Upper[axis]));
     }
     std::sort(borders[axis].begin(), borders[axis].end());
   }
@@ -299,16 +298,18 @@ double Medium::OwnVolume(std::int64_t cell) const
     {
       for (std::size_t i = 1; i < borders[0].size(); ++i)
       {
-        const Vec3 lower(borders[0][i - 1], borders[1][j - 1], borders[2][k - 1]);
-        const Vec3 upper(borders[0][i], borders[1][j], borders[2][k]);
-        const bool covered = std::any_of(grid.Finer.begin(), grid.Finer.end(),
-          [middle = 0.5 * (lower + upper)](const Box& over) { return over.Contains(middle); });
-        own += covered ? 0.0 : SharedVolume({lower, upper}, box);
+        const Box one{{borders[0][i - 1], borders[1][j - 1], borders[2][k - 1]},
+          {borders[0][i], borders[1][j], borders[2][k]}};
+        const bool covered = std::any_of(finer.begin(), finer.end(),
+          [&one](const Box& over) { return over.Contains(0.5 * (one.Lower + one.Upper)); });
+        own += covered ? 0.0 : SharedVolume(one, one);
       }
     }
   }
+  // What rounding leaves or takes is nothing.
+  constexpr double Rounding = 1e-6;
   const double share = own / SharedVolume(box, box);
-  return share > LeastShare ? share * volume : 0.0;
+  return share < Rounding ? 0.0 : share > 1.0 - Rounding ? volume : share * volume;
 }
 
 double Medium::MeanChord(std::int64_t cell) const
@@ -318,25 +319,7 @@ double Medium::MeanChord(std::int64_t cell) const
 
 bool Medium::Covered(std::int64_t cell) const
 {
-  if (!this->Overlap_)
-  {
-    return false;
-  }
-  // As many points along each edge; a part is covered where its cell is.
-  constexpr int points = 3;
-  const CellPart* part = this->Parts_.Find(cell);
-  const std::int64_t whole = part ? part->Cell : cell;
-  const Box box = this->BoxOf(whole);
-  for (int point = 0; point < points * points * points; ++point)
-  {
-    const Vec3 index(point % points, point / points % points, point / (points * points));
-    const Vec3 share = (index + 0.5) / static_cast<double>(points);
-    if (this->LocateInGrids(box.Lower + share * (box.Upper - box.Lower)) != whole)
-    {
-      return true;
-    }
-  }
-  return false;
+  return this->OwnVolume(cell) < this->CellVolume(cell);
 }
 
 Vec3 Medium::CellSize(std::int64_t cell) const

@@ -75,7 +75,7 @@ public:
   /// Edges; of a part those of a box that is as far spread along each axis.
   Vec3 CellSize(std::int64_t cell) const;
   double CellVolume(std::int64_t cell) const;
-  /// Volume without what finer grids lie over: what rays meet of a cell. 0 below a billionth.
+  /// Volume without what finer grids lie over, but for a millionth: what rays meet of a cell.
   double OwnVolume(std::int64_t cell) const;
   /// Mean length of the isotropic chords of a convex cell, 4 V / S (Cauchy) [m].
   double MeanChord(std::int64_t cell) const;

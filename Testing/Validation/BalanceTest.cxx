@@ -5,13 +5,11 @@
 #include "TestReport.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
 
 /// A closed room with heterogeneous smoke, a block, a hanging lamp and a sign mounted on a wall.
 SceneDescription FurnishedRoom(double albedo, double extinction)
@@ -32,22 +30,10 @@ SceneDescription FurnishedRoom(double albedo, double extinction)
   return scene;
 }
 
-/// Power that plates send out [lm].
-double Emitted(const Solved& solved)
-{
-  double emitted = 0.0;
-  const EmitterSet& lights = solved.TheScene->Lights();
-  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
-  {
-    emitted += Pi * lights.Cells()[cell].Luminance[0] * lights.CellArea(cell);
-  }
-  return emitted;
-}
-
 void CheckBalance(const std::string& name, double albedo, double extinction)
 {
   const Solved solved(FurnishedRoom(albedo, extinction));
-  const double emitted = Emitted(solved);
+  const double emitted = solved.TheScene->Lights().Flux(0);
   const Estimate smoke = solved.AbsorbedInSmoke();
   const Estimate surfaces = solved.AbsorbedOnSurfaces();
   report::Relative(name, emitted, smoke.Mean + surfaces.Mean, 1e-3,
@@ -99,7 +85,7 @@ TEST(Balance, OpenCloud)
   const Estimate surfaces = open.AbsorbedOnSurfaces();
   const double error = std::hypot(
     smoke.StandardError, std::hypot(surfaces.StandardError, area * onWalls.StandardError));
-  const double emitted = Emitted(open);
+  const double emitted = open.TheScene->Lights().Flux(0);
   EXPECT_LT(error, 1e-3 * emitted);
   EXPECT_GT(area * onWalls.Mean, 0.3 * emitted);
   report::Relative("cloud", emitted, smoke.Mean + surfaces.Mean + area * onWalls.Mean, 1e-3, error);
