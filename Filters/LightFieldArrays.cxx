@@ -144,8 +144,7 @@ void StoreSmoke(
   }
   vtkNew<vtkFieldData> fields;
   fields->PassData(block.GetFieldData());
-  fields->RemoveArray(PartDirect);
-  fields->RemoveArray(PartMultiple);
+  RemoveParts(*fields);
   const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, block.GetNumberOfCells());
   if (!later.empty())
   {
@@ -324,6 +323,13 @@ void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks&
 }
 
 //------------------------------------------------------------------------------
+void RemoveParts(vtkFieldData& fields)
+{
+  fields.RemoveArray(PartDirect);
+  fields.RemoveArray(PartMultiple);
+}
+
+//------------------------------------------------------------------------------
 std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks)
 {
   std::vector<vtkDataArray*> arrays;
@@ -369,9 +375,9 @@ bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
       "MultipleFluence");
     vtkNew<vtkFieldData> fields;
     fields->PassData(to.Smoke[i].Grid->GetFieldData());
+    RemoveParts(*fields);
     for (const char* const name : {PartDirect, PartMultiple})
     {
-      fields->RemoveArray(name);
       if (vtkDataArray* const array = from.Smoke[i].Grid->GetFieldData()->GetArray(name))
       {
         fields->AddArray(array);

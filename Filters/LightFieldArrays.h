@@ -4,6 +4,8 @@
 #include "LightField.h"
 #include "SceneBlocks.h"
 
+class vtkFieldData;
+
 namespace smokevis
 {
 
@@ -22,6 +24,9 @@ namespace smokevis
 /// parts' are in the field data of the smoke block, `PartDirectFluence` and `PartMultipleFluence`.
 /// @param smoke  of the scene that was solved
 void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks& blocks, int bands);
+
+/// Takes the light of cells' later parts out of field data of a block that is to hold other light.
+void RemoveParts(vtkFieldData& fields);
 
 /// The arrays that LoadLightField reads, in a fixed order, null where one is missing that every
 /// light field has.

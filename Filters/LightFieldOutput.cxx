@@ -2,6 +2,7 @@
 #include "LightFieldOutput.h"
 
 #include "LightField.h"
+#include "LightFieldArrays.h"
 #include "LightFieldInput.h"
 #include "RankReport.h"
 #include "Ranks.h"
@@ -46,8 +47,10 @@ void AddFieldsTo(vtkDataObject& target, vtkDataObject& smoke, const LightFieldRe
   const std::vector<WorkItem>& report)
 {
   vtkNew<vtkFieldData> fields;
-  fields->PassData(target.GetFieldData());
   fields->PassData(smoke.GetFieldData());
+  // Smoke may be what an earlier light field gave.
+  RemoveParts(*fields);
+  fields->PassData(target.GetFieldData());
   target.SetFieldData(fields);
   const SceneOptions& options = record.Options;
   AddFieldNumber(target, "Albedo", {options.Albedo});

@@ -123,8 +123,9 @@ public:
 
   ///@{
   /**
-   * Signs whose perceived contrast cannot exceed this are not computed and count as 0, from 0; 0:
-   * all are computed. Default: 0.
+   * Signs whose perceived contrast by their own light, without the smoke's, is below this are
+   * measured no further and count as 0, from 0: even veils only lower it. 0: all are measured.
+   * Default: 0.
    */
   vtkSetMacro(CutOff, double);
   vtkGetMacro(CutOff, double);

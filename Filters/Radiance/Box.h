@@ -4,6 +4,7 @@
 #include "Types.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace smokevis
 {
@@ -34,12 +35,12 @@ struct Box
 
   /// Shortens a stretch of a line to what lies in the box; returns whether anything does.
   /// @param inverse 1 / direction
-  bool Clip(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double& begin,
-    double& end) const
+  bool Clip(const Vec3& origin, const Vec3& inverse, double& begin, double& end) const
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      if (direction[axis] == 0.0)
+      // The line runs along the axis's faces, but for less than numbers tell.
+      if (!std::isfinite(inverse[axis]))
       {
         if (origin[axis] < this->Lower[axis] || origin[axis] > this->Upper[axis])
         {

@@ -170,7 +170,7 @@ public:
     this->EdgeV_ = this->Plate_.Corners[3] - this->Plate_.Corners[0];
   }
 
-  SignMeasurement Measure();
+  SignMeasurement Measure(double cutOff);
 
 private:
   /// A plane part of the sign as the eye sees it.
@@ -193,6 +193,9 @@ private:
   void FillFactors(
     const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen);
   void FillMeans(const std::vector<Part>& parts);
+  void AddVeil(std::vector<Part>& parts);
+  /// Finds contrasts of what the blocks show, and the mean.
+  void FillContrast(const std::vector<Part>& parts);
   /// Adds the veil, and finds contrasts and all that depends on it.
   void FillResult(std::vector<Part>& parts);
 
@@ -391,9 +394,8 @@ void SignLook::FillMeans(const std::vector<Part>& parts)
   result.MeanLuminanceError = StandardError(mean);
 }
 
-void SignLook::FillResult(std::vector<Part>& parts)
+void SignLook::AddVeil(std::vector<Part>& parts)
 {
-  Sums sums;
   for (Part& part : parts)
   {
     for (std::size_t i = 0; i < part.Blocks.size(); ++i)
@@ -417,9 +419,16 @@ void SignLook::FillResult(std::vector<Part>& parts)
         seen.Factors[batch][0] = sum[batch];
       }
     }
+  }
+}
+
+void SignLook::FillContrast(const std::vector<Part>& parts)
+{
+  Sums sums;
+  for (const Part& part : parts)
+  {
     AddPixels(part.Pattern, part.Blocks, sums);
   }
-  this->FillMeans(parts);
   SignMeasurement& result = this->Result_;
   const ResampledMoments resampled = sums.Get();
   result.MeanLuminance = resampled[0].Mean;
@@ -428,7 +437,14 @@ void SignLook::FillResult(std::vector<Part>& parts)
     result.PerceivedContrastError);
 }
 
-SignMeasurement SignLook::Measure()
+void SignLook::FillResult(std::vector<Part>& parts)
+{
+  this->AddVeil(parts);
+  this->FillMeans(parts);
+  this->FillContrast(parts);
+}
+
+SignMeasurement SignLook::Measure(double cutOff)
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, this->Plate_, this->Eye_);
   if (facets.empty())
@@ -446,11 +462,6 @@ SignMeasurement SignLook::Measure()
   {
     return {};
   }
-  for (int band = 0; band < this->Bands_; ++band)
-  {
-    this->Veils_.emplace_back(
-      this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
-  }
   for (std::size_t index = 0; index < parts.size(); ++index)
   {
     Part& part = parts[index];
@@ -464,6 +475,19 @@ SignMeasurement SignLook::Measure()
   }
   SignMeasurement& result = this->Result_;
   result.InView = true;
+  if (cutOff > 0.0)
+  {
+    this->FillContrast(parts);
+    if (result.PerceivedContrast < cutOff)
+    {
+      return {.InView = true, .BelowCutOff = true};
+    }
+  }
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    this->Veils_.emplace_back(
+      this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
+  }
   result.VisibleFraction = this->Seen_ / this->All_;
   result.OpticalDepth /= this->Seen_;
   this->FillResult(parts);
@@ -485,9 +509,9 @@ SignMeasurement SignLook::Measure()
 } // namespace
 
 SignMeasurement MeasureSign(
-  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
+  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer, double cutOff)
 {
-  return SignLook(view, sign, eye, observer).Measure();
+  return SignLook(view, sign, eye, observer).Measure(cutOff);
 }
 
 } // namespace smokevis

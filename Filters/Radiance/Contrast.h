@@ -20,6 +20,8 @@ struct SignMeasurement
 {
   /// False where no part of the sign's front is in view; all else is then zero.
   bool InView = false;
+  /// Whether it is cut off; all but InView is then zero.
+  bool BelowCutOff = false;
   /// Share of the plate (by solid angle) that shows, 0 to 1.
   double VisibleFraction = 0.0;
   /// Standard deviation over mean of the luminance, and its standard error.
@@ -49,12 +51,9 @@ struct SignMeasurement
 /// Measures a sign (index into EmitterSet::Signs) from an eye point. Where the light field leaves
 /// its contrast uncertain by more than 0.005, the veil is gathered (View::GatherVeil), unless the
 /// sign is fainter than a hundredth of the dark luminance.
-SignMeasurement MeasureSign(
-  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
-
-/// Upper bound of the perceived contrast of a sign from an eye point, from transmittance and
-/// geometry alone (no veil): 0 where the sign faces away.
-double PerceivedContrastBound(
-  const View& view, std::size_t sign, const Vec3& eye, const Observer& observer);
+/// @param cutOff a sign whose own light, without the veil, has a smaller perceived contrast is
+/// measured no further: an even veil can only lower it, and an uneven one is not the sign
+SignMeasurement MeasureSign(const View& view, std::size_t sign, const Vec3& eye,
+  const Observer& observer, double cutOff = 0.0);
 
 } // namespace smokevis

@@ -82,6 +82,7 @@ LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionL
   leaf.Corners = corners;
   leaf.Normal = normal;
   leaf.Law = law;
+  leaf.SignId = cell.SignId;
   for (const Triangle& half :
     {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
   {
@@ -217,11 +218,24 @@ void EmitterSet::FindSigns()
   }
 }
 
+bool EmitterSet::OnOneBoard(std::size_t a, std::size_t b) const
+{
+  constexpr double LargestTilt = 1e-4;
+  constexpr double LargestStep = 1e-4;
+  const Vec3& normal = this->Normals_[a];
+  const double size = std::sqrt(std::max(this->Areas_[a], this->Areas_[b]));
+  return this->Laws_[a] == this->Laws_[b] &&
+         glm::length(normal - this->Normals_[b]) <= LargestTilt &&
+         std::abs(glm::dot(this->Centres_[a] - this->Centres_[b], normal)) <=
+           LargestStep * (size + glm::length(this->Centres_[a] - this->Centres_[b]));
+}
+
 std::vector<int> EmitterSet::JoinCells(bool samePlane) const
 {
-  // Lamps' cells join where they share a corner: a ceiling's lamps stay apart, the pieces of a
-  // luminous panel do not.
-  using Key = std::array<double, 8>;
+  // Cells of signs join in all of a board. Lamps' cells join where they share a corner: a ceiling's
+  // lamps stay apart, the pieces of a luminous panel do not.
+  std::map<int, std::vector<std::size_t>> boards;
+  using Key = std::array<double, 7>;
   std::map<Key, std::size_t> firstCells;
   std::vector<int> parent;
   const auto find = [&parent](int light)
@@ -248,10 +262,9 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
       const auto round = [](double value, double step) { return std::round(value / step) * step; };
       const double grid = 1e-4 * std::sqrt(this->Areas_[i]);
       const double step = std::exp2(std::ceil(std::log2(grid)));
-      const Key key = {static_cast<double>(cell.SignId), samePlane ? cell.Exponent : 0.0,
-        samePlane ? round(n.x, 1e-5) : 0.0, samePlane ? round(n.y, 1e-5) : 0.0,
-        samePlane ? round(n.z, 1e-5) : 0.0, round(place.x, step), round(place.y, step),
-        round(place.z, step)};
+      const Key key = {samePlane ? cell.Exponent : 0.0, samePlane ? round(n.x, 1e-5) : 0.0,
+        samePlane ? round(n.y, 1e-5) : 0.0, samePlane ? round(n.z, 1e-5) : 0.0,
+        round(place.x, step), round(place.y, step), round(place.z, step)};
       const std::size_t first = firstCells.try_emplace(key, i).first->second;
       if (first != i && (!samePlane || this->Laws_[first] == this->Laws_[i]))
       {
@@ -260,7 +273,17 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
     };
     if (cell.SignId >= 0)
     {
-      join(Vec3(0.0));
+      std::vector<std::size_t>& own = boards[cell.SignId];
+      const auto board = std::find_if(own.begin(), own.end(),
+        [&](std::size_t first) { return !samePlane || this->OnOneBoard(i, first); });
+      if (board == own.end())
+      {
+        own.push_back(i);
+      }
+      else
+      {
+        parent[lightOf[i]] = find(lightOf[*board]);
+      }
       continue;
     }
     for (const Vec3& vertex : cell.Vertices)
@@ -380,6 +403,7 @@ std::vector<LightGroup> EmitterSet::Coarsened(const std::vector<LightGroup>& lea
     {
       const PatternVector& sum = pattern.Blocks()[column + row * (across.size() - 1)].Sum;
       EmitterCell mean;
+      mean.SignId = first.SignId;
       const double area = size.x * size.y * (across[1] - across[0]) * (up[1] - up[0]);
       for (int band = 0; band < MaxBands; ++band)
       {

@@ -61,6 +61,8 @@ struct LightGroup
   /// How far it reaches behind the plane through Centre [m]; 0 but for rounding where it is plane.
   double Depth = 0.0;
   EmissionLaw Law;
+  /// Of the sign that it is a part of; -1: a lamp.
+  int SignId = -1;
   /// Sum of luminance times area [cd]; for a leaf the luminance is this over Area.
   Spectrum Intensity{};
   double Area = 0.0;
@@ -73,7 +75,7 @@ struct LightGroup
   std::shared_ptr<const PlateStencil> Stencil;
 
   /// Whether it is plane but for rounding.
-  bool Plane() const { return this->Depth <= 1e-6 * this->Radius; }
+  bool Plane() const { return this->Depth <= 1e-3 * this->Radius; }
   /// Distance of a point from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
   /// A place between the corners, and the area for each unit of u and v there [m2].
@@ -121,6 +123,9 @@ private:
   /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light
   /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
+  /// Whether two cells of a sign lie in one plane, but for the rounding of single precision, and
+  /// emit alike.
+  bool OnOneBoard(std::size_t a, std::size_t b) const;
   void BuildLights(double largestLight);
   /// A lattice of rectangles that send out what a pattern of many leaves does.
   std::vector<LightGroup> Coarsened(const std::vector<LightGroup>& leaves) const;

@@ -73,7 +73,8 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
       this->AddParts(view, group);
       continue;
     }
-    this->AddPlate(view, group.Centre, group.Radius, group.Normal, group.Law, group.Intensity);
+    this->AddPlate(
+      view, group.Centre, group.Radius, group.Normal, group.Law, group.Intensity, group.SignId);
   }
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
   {
@@ -85,7 +86,7 @@ GlareSources::GlareSources(const View& view, const Vec3& eye) : Eye_(eye)
         value *= lights.CellArea(cell);
       }
       this->AddPlate(view, lights.CellCentre(cell), std::sqrt(lights.CellArea(cell) / Pi),
-        lights.CellNormal(cell), lights.CellLaw(cell), intensity);
+        lights.CellNormal(cell), lights.CellLaw(cell), intensity, lights.Cells()[cell].SignId);
     }
   }
   if (view.TheScene().Smoke().Emits())
@@ -118,14 +119,15 @@ void GlareSources::AddParts(const View& view, const LightGroup& leaf)
       {
         value *= area / leaf.Area;
       }
-      this->AddPlate(view, at(0.5, 0.5), std::sqrt(area / Pi), leaf.Normal, leaf.Law, intensity);
+      this->AddPlate(
+        view, at(0.5, 0.5), std::sqrt(area / Pi), leaf.Normal, leaf.Law, intensity, leaf.SignId);
     }
   }
 }
 
 //------------------------------------------------------------------------------
 void GlareSources::AddPlate(const View& view, const Vec3& place, double radius, const Vec3& normal,
-  const EmissionLaw& law, const Spectrum& intensity)
+  const EmissionLaw& law, const Spectrum& intensity, int signId)
 {
   const Scene& scene = view.TheScene();
   const Vec3 way = place - this->Eye_;
@@ -147,8 +149,7 @@ void GlareSources::AddPlate(const View& view, const Vec3& place, double radius, 
     Luminance(arriving, scene.Bands()) * cosine * law.Relative(-way / distance, cosine) / square;
   if (illuminance > 0.0)
   {
-    this->Sources_.push_back(
-      {way / distance, std::atan2(radius, distance), illuminance, place, true});
+    this->Sources_.push_back({way / distance, std::atan2(radius, distance), illuminance, signId});
   }
 }
 
@@ -193,8 +194,8 @@ void GlareSources::AddFlames(const View& view)
                        std::exp(-scale * before);
     }
     const double illuminance = Luminance(arriving, scene.Bands()) / (distance * distance + square);
-    this->Sources_.push_back({way / distance, std::atan2(std::sqrt(square), distance), illuminance,
-      smoke.CellCentre(cell), false});
+    this->Sources_.push_back(
+      {way / distance, std::atan2(std::sqrt(square), distance), illuminance, -1});
   }
 }
 
@@ -206,10 +207,7 @@ double GlareSources::VeilingLuminance(const Sign& sign, double age) const
   for (const Source& source : this->Sources_)
   {
     const double cosine = glm::dot(source.Direction, sight);
-    const Vec3 from = source.Place - sign.Centre;
-    const bool onSign = source.Plate && glm::length(from) <= sign.Radius &&
-                        std::abs(glm::dot(from, sign.Normal)) <= 1e-3 * sign.Radius;
-    if (!(cosine > 0.0) || onSign)
+    if (!(cosine > 0.0) || source.SignId == sign.Id)
     {
       continue;
     }

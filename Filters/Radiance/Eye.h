@@ -57,14 +57,14 @@ private:
     double Radius;
     /// On a plane that faces it [lx].
     double Illuminance;
-    Vec3 Place;
-    bool Plate;
+    /// Of the sign that it is a part of; -1: a lamp or flame.
+    int SignId;
   };
 
   /// Cuts a cell that is large in the eye's field of view into parts that are not.
   void AddParts(const View& view, const LightGroup& leaf);
   void AddPlate(const View& view, const Vec3& place, double radius, const Vec3& normal,
-    const EmissionLaw& law, const Spectrum& intensity);
+    const EmissionLaw& law, const Spectrum& intensity, int signId);
   void AddFlames(const View& view);
 
   Vec3 Eye_;

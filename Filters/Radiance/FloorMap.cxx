@@ -64,6 +64,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
   {
     glare.emplace(view, eye);
   }
+  bool cut = false;
   for (std::size_t sign = 0; sign < map.Signs; ++sign)
   {
     if (FacesAway(lights, lights.Signs()[sign], eye))
@@ -73,15 +74,11 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
     }
     const Observer observer =
       LookingAt(options.Eye, options.State, glare ? &*glare : nullptr, lights.Signs()[sign]);
-    if (options.CutOff > 0.0 && PerceivedContrastBound(view, sign, eye, observer) < options.CutOff)
+    const SignMeasurement measured = MeasureSign(view, sign, eye, observer, options.CutOff);
+    if (!measured.InView || measured.BelowCutOff)
     {
-      ++counts.CutOff;
-      continue;
-    }
-    const SignMeasurement measured = MeasureSign(view, sign, eye, observer);
-    if (!measured.InView)
-    {
-      ++counts.Hidden;
+      ++(measured.BelowCutOff ? counts.CutOff : counts.Hidden);
+      cut = cut || measured.BelowCutOff;
       continue;
     }
     counts.Gathered += measured.Rays > 0 ? 1 : 0;
@@ -106,7 +103,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
         static_cast<float>(JinVisibility(measured.OpticalDepth / distance));
     }
   }
-  if (map.BestSign[place] >= 0)
+  if (map.BestSign[place] >= 0 || cut)
   {
     map.Status[place] = map.Visibility[place] < options.ContrastThreshold
                           ? PlaceStatus::BelowThreshold
@@ -163,7 +160,8 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");
   say("views of signs skipped", counts.Hidden, "the sign is hidden");
-  say("views of signs skipped", counts.CutOff, "its contrast is bounded below the cut-off");
+  say("views of signs skipped", counts.CutOff,
+    "without the smoke's light, its contrast is below the cut-off");
   return map;
 }
 

@@ -19,7 +19,7 @@ struct FloorMapOptions
   double ContrastThreshold = 0.2;
   /// Standard deviation of that threshold over observers.
   double ThresholdSpread = 0.04;
-  /// Signs whose perceived contrast is bounded below this are not computed; 0: all are.
+  /// Signs that are cut off (MeasureSign) count as 0; 0: none is.
   double CutOff = 0.0;
   Observer Eye;
   Adaptation State;

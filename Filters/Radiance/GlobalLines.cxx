@@ -99,7 +99,7 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const auto stretch = [&](const Box& box)
   {
     std::pair<double, double> ends(-Infinity, Infinity);
-    box.Clip(line.Origin, line.Direction, inverse, ends.first, ends.second);
+    box.Clip(line.Origin, inverse, ends.first, ends.second);
     return ends;
   };
   bool meetsInner = drawnInside;

@@ -102,13 +102,14 @@ Medium::GridRay::GridRay(const Grid& grid, const Vec3& origin, const Vec3& direc
     own.Origin = origin[axis];
     own.Inverse = inverse[axis];
     own.Left = index;
-    if (direction[axis] > 0.0)
+    const bool along = std::isfinite(inverse[axis]);
+    if (along && direction[axis] > 0.0)
     {
       own.Step = 1;
       own.Left = grid.Size[axis] - 1 - index;
       own.Plane = nodes + index + 1;
     }
-    else if (direction[axis] < 0.0)
+    else if (along)
     {
       own.Step = -1;
       // A start on a plane lies in the cell that the ray goes into.
@@ -311,7 +312,7 @@ void Medium::ForEachPiece(
     const Grid& grid = this->Grids_[this->Rank_[rank]];
     double enter = begin;
     double leave = end;
-    if (grid.Bounds.Clip(origin, direction, inverse, enter, leave))
+    if (grid.Bounds.Clip(origin, inverse, enter, leave))
     {
       intervals.push_back({enter, leave, static_cast<int>(rank)});
     }
@@ -417,7 +418,7 @@ double Medium::OpticalDepth(
 {
   if (this->Even_)
   {
-    return this->Grids_[0].Bounds.Clip(origin, direction, 1.0 / direction, begin, end)
+    return this->Grids_[0].Bounds.Clip(origin, 1.0 / direction, begin, end)
              ? this->MaximumExtinction_ * (end - begin)
              : 0.0;
   }

@@ -22,7 +22,7 @@ double LengthInBox(const Vec3& origin, const Vec3& direction, const Vec3& lower,
   double leave = Infinity;
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (direction[axis] == 0.0)
+    if (std::abs(direction[axis]) < std::numeric_limits<double>::min())
     {
       if (origin[axis] < lower[axis] || origin[axis] > upper[axis])
       {
@@ -109,7 +109,7 @@ TEST(Walk, AlongFacesEdgesAndDiagonals)
 TEST(Walk, NearlyAlongFaces)
 {
   const Medium medium({scenes::UniformSmoke(Vec3(0.0), Vec3(3, 2, 1), {30, 20, 10}, 1.0)});
-  for (const double tilt : {1e-300, 1e-18, 1e-16, 1e-12, 1e-8})
+  for (const double tilt : {1e-310, 1e-300, 1e-18, 1e-16, 1e-12, 1e-8})
   {
     for (const double sign : {-1.0, 1.0})
     {

@@ -97,7 +97,6 @@ TEST(Contrast, FromTheBackAndFromTheEdge)
     EXPECT_FALSE(sign.InView);
     EXPECT_EQ(sign.Contrast, 0.0);
     EXPECT_EQ(sign.VisibleFraction, 0.0);
-    EXPECT_EQ(PerceivedContrastBound(*view, 0, eye, Plain), 0.0);
   }
 }
 
@@ -228,14 +227,21 @@ TEST(Contrast, TrianglesThroughPixels)
   EXPECT_NEAR(MeasureSign(*view, 0, {2, 0, 0}, Plain).Contrast, deviation / mean, 0.01);
 }
 
-TEST(Contrast, BoundHolds)
+// Without smoke a sign's own light is all there is: it is cut off just above its contrast.
+TEST(Contrast, CutOff)
 {
   const auto view = ViewOf(Stripes(1.0, 0.2));
   const Observer observer;
   for (const Vec3& eye : {Vec3(1, 0, 0), Vec3(5, 4, 1), Vec3(0.2, 3, 0), Vec3(300, 0, 0)})
   {
-    EXPECT_GE(PerceivedContrastBound(*view, 0, eye, observer) + 1e-6,
-      MeasureSign(*view, 0, eye, observer).PerceivedContrast);
+    const double contrast = MeasureSign(*view, 0, eye, observer).PerceivedContrast;
+    const SignMeasurement kept = MeasureSign(*view, 0, eye, observer, (1.0 - 1e-9) * contrast);
+    EXPECT_FALSE(kept.BelowCutOff);
+    EXPECT_EQ(kept.PerceivedContrast, contrast);
+    const SignMeasurement cut = MeasureSign(*view, 0, eye, observer, (1.0 + 1e-9) * contrast);
+    EXPECT_TRUE(cut.InView);
+    EXPECT_TRUE(cut.BelowCutOff);
+    EXPECT_EQ(cut.PerceivedContrast, 0.0);
   }
 }
 

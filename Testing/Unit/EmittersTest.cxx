@@ -95,7 +95,6 @@ void AddLeaves(
   }
 }
 
-// The lit cells of a sign form one light, each lamp is one, dark cells none.
 // Faces back to back cancel but for rounding, however they are tilted: the first one's front
 // counts.
 TEST(Emitters, SignWithTwoFaces)
@@ -115,6 +114,7 @@ TEST(Emitters, SignWithTwoFaces)
   }
 }
 
+// The lit cells of a sign form one light, each lamp is one, dark cells none.
 TEST(Emitters, LightsAndTheirGroups)
 {
   std::vector<EmitterCell> cells;
@@ -138,6 +138,35 @@ TEST(Emitters, LightsAndTheirGroups)
     EXPECT_NEAR(area, areas[light], 1e-12);
     EXPECT_NEAR(root.Intensity[0], intensity, 1e-12);
     EXPECT_NEAR(root.Area, area, 1e-12);
+  }
+}
+
+// Boards of one sign in planes of their own are lights of their own, however many cells they have;
+// what single precision moves does not make more boards.
+TEST(Emitters, BoardsOfASign)
+{
+  const Vec3 u = glm::normalize(Vec3(3, 1, 2));
+  const Vec3 v = glm::normalize(glm::cross(Vec3(1, 5, -2), u));
+  const Vec3 n = glm::cross(u, v);
+  std::vector<EmitterCell> cells;
+  for (int bar = 0; bar < 60; ++bar)
+  {
+    EmitterCell cell = Rectangle(0.01 * bar, 0.01 * bar + 0.008, 0.0, 0.2, 3.0, 4);
+    for (Vec3& vertex : cell.Vertices)
+    {
+      const double step = bar % 2 == 0 ? 0.0 : 0.3;
+      vertex =
+        Vec3(glm::vec3(Vec3(20, 30, 3) + vertex.x * u + vertex.y * v + (vertex.z + step) * n));
+    }
+    cells.push_back(cell);
+  }
+  const EmitterSet set(cells, 1, AnySize);
+  ASSERT_EQ(set.Lights().size(), 2U);
+  EXPECT_NEAR(glm::dot(set.Root(1).Centre - set.Root(0).Centre, n), 0.3, 1e-5);
+  for (const std::size_t light : {0, 1})
+  {
+    EXPECT_TRUE(set.Root(light).Plane());
+    EXPECT_NEAR(set.Root(light).Intensity[0], 30 * 0.008 * 0.2 * 3.0, 1e-5);
   }
 }
 

@@ -141,6 +141,25 @@ TEST(Eye, SeesGlareOfLargePlates)
   }
 }
 
+// A sign of two boards, one before the other, does not veil itself; another sign in its plane
+// does.
+TEST(Eye, LooksAtAllBoardsOfASign)
+{
+  const Vec3 eye(8.0, 0.0, 0.0);
+  const auto veil = [&eye](int second)
+  {
+    SceneDescription scene = SignInSmoke(0.2);
+    scene.Emitters.push_back(PlateAt({0.2, 0.3, 0.0}, {0, 1, 0}, {0, 0, 1}, 200.0, second));
+    const auto view = Solved(scene);
+    return GlareSources(*view, eye).VeilingLuminance(view->TheScene().Lights().Signs()[0], 35.0);
+  };
+  EXPECT_EQ(veil(0), 0.0);
+  // The plate's size changes the angle and the distance by 1 % together.
+  const double illuminance = 200.0 * 0.01 / (7.8 * 7.8) * std::exp(-0.2 * 7.8);
+  const double angle = std::atan(0.3 / 7.8);
+  EXPECT_NEAR(veil(1) / (illuminance * VeilPerIlluminance(angle, 35.0)), 1.0, 0.03);
+}
+
 TEST(Eye, SeesGlareOfFlames)
 {
   SceneDescription scene = SignInSmoke(0.0);

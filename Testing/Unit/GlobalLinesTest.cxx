@@ -35,7 +35,7 @@ Sums Through(const GlobalLines& lines, const Box& body)
       const GlobalLines::Line line = these.Get(i);
       double begin = 0.0;
       double end = line.Length;
-      if (body.Clip(line.Origin, line.Direction, 1.0 / line.Direction, begin, end))
+      if (body.Clip(line.Origin, 1.0 / line.Direction, begin, end))
       {
         sums.Meetings += 1.0 / draws;
         chords += line.Weight * (end - begin);

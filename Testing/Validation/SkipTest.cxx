@@ -425,4 +425,38 @@ TEST(Skip, SignsBelowTheCutOff)
   EXPECT_GT(left, 3);
 }
 
+/// What a look at the first sign gives without a cut-off is what it gives with one below that.
+void ExpectKept(const SceneDescription& scene, const Vec3& eye, double cutOff)
+{
+  const Outcome run = Solve(scene, true);
+  const View view(run.TheScene, run.Field);
+  const Observer observer;
+  const double contrast = MeasureSign(view, 0, eye, observer).PerceivedContrast;
+  EXPECT_GT(contrast, cutOff);
+  EXPECT_EQ(MeasureSign(view, 0, eye, observer, cutOff).PerceivedContrast, contrast);
+}
+
+// Signs that show in a small part only: one whose uppermost bar stands out of thick smoke, and one
+// that only reflects, with a weak lamp close to one of its ends.
+TEST(Skip, SignsThatShowInAPart)
+{
+  SceneDescription layered;
+  layered.Albedo = 0.0;
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), Vec3(6, 4, 4), {6, 4, 2}, 6.0);
+  grid.Nodes[2] = {0.0, 2.0, 4.0};
+  std::fill(grid.Extinction.begin() + 24, grid.Extinction.end(), 0.0F);
+  layered.Grids = {grid};
+  scenes::AddRoom(layered.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
+  layered.Emitters = {scenes::Plate({0.01, 2, 1.5}, {1, 0, 0}, {0, 0, 1}, 0.5, 1.0, 0.0, 0.0, 0),
+    scenes::Plate({0.01, 2, 2.02}, {1, 0, 0}, {0, 0, 1}, 0.5, 0.04, 100.0, 0.0, 0)};
+  ExpectKept(layered, {5.0, 2.0, 2.1}, 1.0);
+
+  SceneDescription reflecting;
+  reflecting.Albedo = 0.0;
+  scenes::AddRoom(reflecting.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
+  reflecting.Emitters = {scenes::Plate({0.01, 2, 2}, {1, 0, 0}, {0, 0, 1}, 1.0, 0.2, 0.0, 0.8, 0),
+    scenes::Plate({0.06, 1.55, 2}, {-1, 0, 0}, {0, 0, 1}, 0.02, 0.02, 10.0, 0.0)};
+  ExpectKept(reflecting, {5.0, 2.0, 2.0}, 0.1);
+}
+
 } // namespace

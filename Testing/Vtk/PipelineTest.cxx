@@ -128,6 +128,15 @@ TEST_F(PipelineTest, KeepsThePartsOfCellsThatWallsCut)
   EXPECT_EQ(parts->GetArray("PartMultipleFluence")->GetNumberOfTuples(), 8);
   this->View->SetInputDataObject(0, copy);
   EXPECT_EQ(this->Result("UnlitLuminance"), veiled);
+
+  // As smoke of another light field it brings no light along: a sign half as bright is seen the
+  // same on it and on the smoke that there was first.
+  this->Sign->SetLuminance(0.5 * this->Sign->GetLuminance());
+  this->View->SetInputConnection(this->Field->GetOutputPort());
+  const double first = this->Result("UnlitLuminance");
+  this->Field->SetInputDataObject(0, copy->GetPartition(0, 0));
+  EXPECT_EQ(this->Result("UnlitLuminance"), first);
+  EXPECT_LT(first, 0.6 * veiled);
 }
 
 TEST_F(PipelineTest, MapsTheFloor)
