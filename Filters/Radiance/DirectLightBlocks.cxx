@@ -14,13 +14,15 @@ namespace
 {
 
 /// Cells along the edges of the smallest block in which ways tell of each other, error of an
-/// optical depth that is told so, that of the weakest lights, and where in the block it is
-/// measured.
+/// optical depth that is told so, and that of the weakest lights.
 constexpr int SmallestBlock = 4;
 constexpr double WayTolerance = 0.004;
 constexpr double RoughWayTolerance = 0.5;
-constexpr std::array<std::array<double, 3>, 3> WayChecks = {
-  {{0.5, 0.5, 0.5}, {0.25, 0.7, 0.3}, {0.75, 0.3, 0.65}}};
+/// Where that is measured: along a diagonal that winds around the block, and so passes through each
+/// layer of cells across each axis: a gap between layers of smoke may be one cell thick. Where it
+/// begins, as shares of the block's edges, and which way it runs.
+constexpr std::array<double, 3> DiagonalBegin = {0.5, 0.25, 0.75};
+constexpr std::array<int, 3> DiagonalStep = {1, 1, -1};
 /// Share of the fluence of the other lights that all lights left out may add: single precision
 /// does not show it.
 constexpr double NegligibleShare = 1e-7;
@@ -40,6 +42,19 @@ Vec3 BlockShare(const Medium::Block& block, const std::array<int, 3>& place)
       block.Size[axis] > 1 ? static_cast<double>(place[axis]) / (block.Size[axis] - 1) : 0.0;
   }
   return share;
+}
+
+/// The cell of a block so many steps along the diagonal.
+std::array<int, 3> PlaceOnDiagonal(const Medium::Block& block, int steps)
+{
+  std::array<int, 3> place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = block.Size[axis];
+    const int begin = static_cast<int>(DiagonalBegin[axis] * size);
+    place[axis] = ((begin + DiagonalStep[axis] * steps) % size + size) % size;
+  }
+  return place;
 }
 
 /// Value between those at the corners of a box, first axis fastest.
@@ -150,18 +165,17 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
     // only where the corners do tell of what lies between.
     const double allowed =
       std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / ways.Share));
-    ways.Told = std::all_of(WayChecks.begin(), WayChecks.end(),
-      [&](const std::array<double, 3>& share)
-      {
-        std::array<int, 3> place;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          place[axis] = static_cast<int>(share[axis] * block.Size[axis]);
-        }
-        const double told = Trilinear(corners, BlockShare(block, place));
-        const double way = glm::length(root.Centre - smoke.CellCentre(smoke.Cell(block, place)));
-        return std::abs(told - walk(place)) * way * this->Scene_.LargestScale() <= allowed;
-      });
+    const auto tells = [&](const std::array<int, 3>& place)
+    {
+      const double told = Trilinear(corners, BlockShare(block, place));
+      const double way = glm::length(root.Centre - smoke.CellCentre(smoke.Cell(block, place)));
+      return std::abs(told - walk(place)) * way * this->Scene_.LargestScale() <= allowed;
+    };
+    const int layers = std::max({block.Size[0], block.Size[1], block.Size[2]});
+    for (int i = 0; i < layers && ways.Told; ++i)
+    {
+      ways.Told = tells(PlaceOnDiagonal(block, i));
+    }
   }
   if (!ways.Told && !whole)
   {

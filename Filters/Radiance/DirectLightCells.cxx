@@ -25,6 +25,9 @@ constexpr double FlatDepth = 0.25;
 constexpr double FlatRatio = 0.2;
 constexpr double TwoPointDepth = 1.2;
 constexpr double DeepestGauss = 4.0;
+/// Share of a light's intensity towards any place in a box that there is towards its centre, where
+/// the centre tells of all: beams end within boxes.
+constexpr double SteadyShare = 0.2;
 
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
 double MeanAttenuation(double x, double shift)
@@ -383,7 +386,14 @@ Spectrum DirectLight::GaussFluence(
   { return std::max(0.0, depth + extinction * (distance - toCentre)); };
   receiver.Clear = true;
   const double height = glm::dot(from, root.Normal);
-  if (height > glm::dot(glm::abs(root.Normal), size) && root.Plane())
+  const auto steady = [&]
+  {
+    return std::all_of(places.begin(), places.end(),
+      [&](const GaussPlace& place) {
+        return SteadyShare * PointLight(root, place.Point - root.Centre) < PointLight(root, from);
+      });
+  };
+  if (height > glm::dot(glm::abs(root.Normal), size) && root.Plane() && steady())
   {
     // That the light is no point matters as much at one place of the box as at another: places
     // differ from the centre as they would before a point.

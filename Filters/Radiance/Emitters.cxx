@@ -1,7 +1,7 @@
 #include "Emitters.h"
 
 #include "Errors.h"
-#include "PlatePattern.h"
+#include "LightLeaves.h"
 #include "PolygonClip.h"
 #include "Triangle.h"
 
@@ -19,9 +19,8 @@ namespace smokevis
 namespace
 {
 
-/// A light of more leaves is replaced by a lattice with so many rectangles along its longer side.
+/// A light of more leaves is replaced by a lattice.
 constexpr std::size_t MostLeaves = 20;
-constexpr double LatticeAcross = 4.0;
 
 void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 {
@@ -73,33 +72,6 @@ void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
     throw Error(where, "it is part of a sign and has an intensity table",
       "Give signs an emission exponent; tables are for lamps, with a SignId of -1");
   }
-}
-
-LightGroup MakeLeaf(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law,
-  const std::array<Vec3, 4>& corners)
-{
-  LightGroup leaf;
-  leaf.Corners = corners;
-  leaf.Normal = normal;
-  leaf.Law = law;
-  leaf.SignId = cell.SignId;
-  for (const Triangle& half :
-    {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
-  {
-    const double area = AreaOf(half);
-    leaf.Area += area;
-    leaf.Centre += area * (half[0] + half[1] + half[2]);
-  }
-  leaf.Centre /= 3.0 * leaf.Area;
-  for (const Vec3& corner : corners)
-  {
-    leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
-  }
-  for (int band = 0; band < MaxBands; ++band)
-  {
-    leaf.Intensity[band] = cell.Luminance[band] * leaf.Area;
-  }
-  return leaf;
 }
 
 } // namespace
@@ -218,14 +190,13 @@ void EmitterSet::FindSigns()
   }
 }
 
-bool EmitterSet::OnOneBoard(std::size_t a, std::size_t b) const
+bool EmitterSet::InOnePlane(std::size_t a, std::size_t b) const
 {
   constexpr double LargestTilt = 1e-4;
   constexpr double LargestStep = 1e-4;
   const Vec3& normal = this->Normals_[a];
   const double size = std::sqrt(std::max(this->Areas_[a], this->Areas_[b]));
-  return this->Laws_[a] == this->Laws_[b] &&
-         glm::length(normal - this->Normals_[b]) <= LargestTilt &&
+  return glm::length(normal - this->Normals_[b]) <= LargestTilt &&
          std::abs(glm::dot(this->Centres_[a] - this->Centres_[b], normal)) <=
            LargestStep * (size + glm::length(this->Centres_[a] - this->Centres_[b]));
 }
@@ -275,7 +246,9 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
     {
       std::vector<std::size_t>& own = boards[cell.SignId];
       const auto board = std::find_if(own.begin(), own.end(),
-        [&](std::size_t first) { return !samePlane || this->OnOneBoard(i, first); });
+        [&](std::size_t first) {
+          return !samePlane || (this->Laws_[i] == this->Laws_[first] && this->InOnePlane(i, first));
+        });
       if (board == own.end())
       {
         own.push_back(i);
@@ -302,7 +275,8 @@ void EmitterSet::BuildLights(double largestLight)
 {
   const std::vector<int> lightOf = this->JoinCells(true);
   const std::vector<int> bodyOf = this->JoinCells(false);
-  std::map<int, std::vector<LightGroup>> lights;
+  // The first cell of each light, and its leaves.
+  std::map<int, std::pair<std::size_t, std::vector<LightGroup>>> lights;
   std::map<int, double> areas;
   this->LeftToLines_.assign(this->Cells_.size(), false);
   for (std::size_t i = 0; i < this->Cells_.size(); ++i)
@@ -316,108 +290,61 @@ void EmitterSet::BuildLights(double largestLight)
   for (std::size_t i = 0; i < this->Cells_.size(); ++i)
   {
     this->LeftToLines_[i] = lightOf[i] >= 0 && areas[bodyOf[i]] > largestLight;
-    if (lightOf[i] < 0 || this->LeftToLines_[i])
+    if (lightOf[i] >= 0 && !this->LeftToLines_[i])
     {
-      continue;
-    }
-    const EmitterCell& cell = this->Cells_[i];
-    const std::vector<Vec3>& vertices = cell.Vertices;
-    for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
-    {
-      const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
-      LightGroup leaf = MakeLeaf(
-        cell, this->Normals_[i], this->Laws_[i], {vertices[0], vertices[v], vertices[v + 1], last});
-      // Corners in one line span nothing.
-      if (leaf.Area > 1e-12 * this->Areas_[i])
-      {
-        lights[lightOf[i]].push_back(std::move(leaf));
-      }
+      auto& light = lights.try_emplace(lightOf[i], i, std::vector<LightGroup>()).first->second;
+      this->AddLeavesOf(i, light.second);
     }
   }
-  for (auto& [light, leaves] : lights)
+  const auto isDark = [](const LightGroup& leaf)
+  { return *std::max_element(leaf.Intensity.begin(), leaf.Intensity.end()) <= 0.0; };
+  for (auto& [number, light] : lights)
   {
-    this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
-    this->Groups_.emplace_back();
-    if (leaves.size() > MostLeaves)
+    auto& [first, leaves] = light;
+    this->AddDarkLeaves(first, leaves);
+    for (std::vector<LightGroup>& part : FilledParts(std::move(leaves)))
     {
-      leaves = this->Coarsened(leaves);
+      const auto lit = std::stable_partition(part.begin(), part.end(), isDark);
+      const std::vector<LightGroup> dark(part.begin(), lit);
+      part.erase(part.begin(), lit);
+      if (part.size() > MostLeaves)
+      {
+        part = Coarsened(part, dark);
+      }
+      if (!part.empty())
+      {
+        this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
+        this->Groups_.emplace_back();
+        this->FillGroup(this->Lights_.back(), part, 0, part.size());
+      }
     }
-    this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
   }
 }
 
-std::vector<LightGroup> EmitterSet::Coarsened(const std::vector<LightGroup>& leaves) const
+void EmitterSet::AddLeavesOf(std::size_t cell, std::vector<LightGroup>& leaves) const
 {
-  const LightGroup& first = leaves.front();
-  const Vec3& origin = first.Corners[0];
-  const Vec3 u = glm::normalize(first.Corners[1] - origin);
-  const Vec3 v = glm::cross(first.Normal, u);
-  const auto place = [&](const Vec3& point)
-  { return glm::dvec2(glm::dot(point - origin, u), glm::dot(point - origin, v)); };
-  glm::dvec2 low(1e300);
-  glm::dvec2 high(-1e300);
-  for (const LightGroup& leaf : leaves)
+  AddLeaves(
+    this->Cells_[cell], this->Normals_[cell], this->Laws_[cell], this->Areas_[cell], leaves);
+}
+
+void EmitterSet::AddDarkLeaves(std::size_t cell, std::vector<LightGroup>& leaves) const
+{
+  const int id = this->Cells_[cell].SignId;
+  const auto sign = std::find_if(
+    this->Signs_.begin(), this->Signs_.end(), [id](const Sign& one) { return one.Id == id; });
+  if (id < 0 || sign == this->Signs_.end())
   {
-    for (const Vec3& corner : leaf.Corners)
+    return;
+  }
+  for (const std::size_t other : sign->Cells)
+  {
+    const Spectrum& luminance = this->Cells_[other].Luminance;
+    if (*std::max_element(luminance.begin(), luminance.begin() + this->Bands_) <= 0.0 &&
+        this->InOnePlane(other, cell))
     {
-      low = glm::min(low, place(corner));
-      high = glm::max(high, place(corner));
+      this->AddLeavesOf(other, leaves);
     }
   }
-  const glm::dvec2 size = high - low;
-  std::vector<PatternCell> cells;
-  for (const LightGroup& leaf : leaves)
-  {
-    PatternCell cell;
-    for (const Vec3& corner : leaf.Corners)
-    {
-      cell.Corners.push_back((place(corner) - low) / size);
-    }
-    cell.Value[0] = 1.0;
-    for (int band = 0; band < MaxBands; ++band)
-    {
-      cell.Value[1 + band] = leaf.Intensity[band] / leaf.Area;
-    }
-    cells.push_back(std::move(cell));
-  }
-  const double edge = std::max(size.x, size.y) / LatticeAcross;
-  const auto borders = [edge](double length)
-  {
-    const int count = std::max(1, static_cast<int>(std::lround(length / edge)));
-    std::vector<double> ends;
-    for (int i = 0; i <= count; ++i)
-    {
-      ends.push_back(static_cast<double>(i) / count);
-    }
-    return ends;
-  };
-  const std::vector<double> across = borders(size.x);
-  const std::vector<double> up = borders(size.y);
-  const PlatePattern pattern(cells, PatternAxis(across, 0), PatternAxis(up, 0));
-  const auto corner = [&](std::size_t column, std::size_t row)
-  { return origin + (low.x + across[column] * size.x) * u + (low.y + up[row] * size.y) * v; };
-  std::vector<LightGroup> lattice;
-  for (std::size_t row = 0; row + 1 < up.size(); ++row)
-  {
-    for (std::size_t column = 0; column + 1 < across.size(); ++column)
-    {
-      const PatternVector& sum = pattern.Blocks()[column + row * (across.size() - 1)].Sum;
-      EmitterCell mean;
-      mean.SignId = first.SignId;
-      const double area = size.x * size.y * (across[1] - across[0]) * (up[1] - up[0]);
-      for (int band = 0; band < MaxBands; ++band)
-      {
-        mean.Luminance[band] = sum[1 + band] * size.x * size.y / area;
-      }
-      if (*std::max_element(mean.Luminance.begin(), mean.Luminance.end()) > 0.0)
-      {
-        lattice.push_back(MakeLeaf(mean, first.Normal, first.Law,
-          {corner(column, row), corner(column + 1, row), corner(column + 1, row + 1),
-            corner(column, row + 1)}));
-      }
-    }
-  }
-  return lattice;
 }
 
 void EmitterSet::FillGroup(

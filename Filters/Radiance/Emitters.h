@@ -123,12 +123,12 @@ private:
   /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light
   /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
-  /// Whether two cells of a sign lie in one plane, but for the rounding of single precision, and
-  /// emit alike.
-  bool OnOneBoard(std::size_t a, std::size_t b) const;
+  /// Whether two cells of a sign lie in one plane, but for the rounding of single precision.
+  bool InOnePlane(std::size_t a, std::size_t b) const;
   void BuildLights(double largestLight);
-  /// A lattice of rectangles that send out what a pattern of many leaves does.
-  std::vector<LightGroup> Coarsened(const std::vector<LightGroup>& leaves) const;
+  void AddLeavesOf(std::size_t cell, std::vector<LightGroup>& leaves) const;
+  /// The same of the dark cells on the board of a sign's cell.
+  void AddDarkLeaves(std::size_t cell, std::vector<LightGroup>& leaves) const;
   void FillGroup(int group, std::vector<LightGroup>& leaves, std::size_t begin, std::size_t end);
 
   int Bands_ = 1;

@@ -2,6 +2,7 @@
 
 #include "BatchSweeps.h"
 #include "DirectField.h"
+#include "Errors.h"
 #include "LineSweep.h"
 #include "PlateGather.h"
 #include "PowerBalance.h"
@@ -197,6 +198,11 @@ void MultipleSolve::Band(int band)
     });
   this->Progress_.ThrowIfStopped("light field");
   const PowerBalance balance(this->Scene_, this->Field_, band, sweep->Outer(), this->Arena_);
+  if (!std::isfinite(balance.Source()))
+  {
+    throw Error("light field", "the direct light is not a finite number",
+      "Check the luminances, and the smoke's emission: their sums must be finite");
+  }
   if (!(balance.Source() > 0.0))
   {
     skip("no light reaches anything that could send it on");

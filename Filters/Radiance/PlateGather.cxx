@@ -4,9 +4,11 @@
 #include "MultipleShape.h"
 #include "Sampler.h"
 #include "Team.h"
+#include "Triangle.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -22,6 +24,45 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
+/// Places by which it is told whether any of a plate is free.
+constexpr int Trials = 64;
+
+/// The cells of a sign, as triangles.
+class PlatePlaces
+{
+public:
+  PlatePlaces(const EmitterSet& lights, const Sign& sign)
+  {
+    for (const std::size_t cell : sign.Cells)
+    {
+      const std::vector<Vec3>& vertices = lights.Cells()[cell].Vertices;
+      for (std::size_t v = 1; v + 1 < vertices.size(); ++v)
+      {
+        this->Parts_.push_back({vertices[0], vertices[v], vertices[v + 1]});
+        this->Areas_.push_back(
+          (this->Areas_.empty() ? 0.0 : this->Areas_.back()) + AreaOf(this->Parts_.back()));
+      }
+    }
+  }
+
+  /// A place for two numbers from 0 to 1, even over the area.
+  Vec3 At(double u, double v) const
+  {
+    const double area = u * this->Areas_.back();
+    const auto found = std::upper_bound(this->Areas_.begin(), this->Areas_.end() - 1, area);
+    const double before = found == this->Areas_.begin() ? 0.0 : *(found - 1);
+    const double share = *found > before ? (area - before) / (*found - before) : 0.0;
+    const Triangle& part = this->Parts_[found - this->Areas_.begin()];
+    // Even over a triangle: the root spreads from its first corner.
+    const double root = std::sqrt(share);
+    return (1.0 - root) * part[0] + root * ((1.0 - v) * part[1] + v * part[2]);
+  }
+
+private:
+  std::vector<Triangle> Parts_;
+  /// Of each and all before it.
+  std::vector<double> Areas_;
+};
 
 } // namespace
 
@@ -87,14 +128,40 @@ bool PlateGather::Wanted(const Sign& sign) const
   return plane && reflects && area <= this->LargestPlate_;
 }
 
+bool PlateGather::Sunk(const Sign& sign, const Vec3& place) const
+{
+  const Vec3 u = glm::normalize(sign.Corners[1] - sign.Corners[0]);
+  const Vec3 v = glm::cross(sign.Normal, u);
+  // Slightly askew, so that no ray runs along edges.
+  for (const Vec3& side : {Vec3(0.0137 * u), Vec3(u + 0.31 * v), Vec3(v - 0.29 * u),
+         Vec3(-u - 0.27 * v), Vec3(0.33 * u - v)})
+  {
+    const Hit hit = this->Scene_.Shapes().Intersect(
+      place, glm::normalize(sign.Normal + side), 0.0, std::numeric_limits<double>::infinity());
+    if (!hit.Found() || hit.Emitter || hit.Side == 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 PlateGather::Result PlateGather::Gather(
   std::size_t index, const IndirectLight& indirect, const Progress& progress) const
 {
   const Sign& sign = this->Scene_.Lights().Signs()[index];
-  const Vec3 edgeU = sign.Corners[1] - sign.Corners[0];
-  const Vec3 edgeV = sign.Corners[3] - sign.Corners[0];
-  const Vec3 tangent = glm::normalize(edgeU);
-  const Vec3 base = sign.Corners[0] + 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  const Vec3 tangent = glm::normalize(sign.Corners[1] - sign.Corners[0]);
+  const Vec3 lift = 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  const PlatePlaces places(this->Scene_.Lights(), sign);
+  const EvenPoints trials(Mix(index));
+  int free = 0;
+  for (int trial = 0; trial < Trials; ++trial)
+  {
+    const auto random = trials.Point(trial);
+    free += this->Sunk(sign, places.At(random[0], random[1]) + lift) ? 0 : 1;
+  }
+  // Where no place is free, surfaces may be inside out.
+  const bool partly = free > 0 && free < Trials;
   double direct = 0.0;
   double area = 0.0;
   for (const std::size_t cell : sign.Cells)
@@ -112,19 +179,26 @@ PlateGather::Result PlateGather::Gather(
     Lanes illuminance;
     for (int batch = 0; batch < Batches && !progress.ShouldStop(); ++batch)
     {
-      // Even over the plate, and over directions by their cosine.
+      // Even over what is free of the plate, and over directions by their cosine.
       const std::uint64_t key =
         Mix(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + Batches * stream + batch);
       const EvenPoints points(key);
       double sum = 0.0;
+      int used = 0;
       for (int ray = 0; ray < rays; ++ray)
       {
         const auto random = points.Point(ray);
+        const Vec3 place = places.At(random[0], random[1]) + lift;
+        if (partly && this->Sunk(sign, place))
+        {
+          continue;
+        }
         const Vec3 direction = LambertianDirection(sign.Normal, tangent, random[2], random[3]);
-        sum += glm::pi<double>() * indirect.Radiance(base + random[0] * edgeU + random[1] * edgeV,
-                                     direction, ToUnit(Mix(key + ray)), batch);
+        sum +=
+          glm::pi<double>() * indirect.Radiance(place, direction, ToUnit(Mix(key + ray)), batch);
+        ++used;
       }
-      illuminance[batch] = static_cast<float>(sum / rays);
+      illuminance[batch] = static_cast<float>(sum / std::max(1, used));
     }
     result.Rays += static_cast<std::size_t>(Batches) * rays;
     return illuminance;

@@ -29,6 +29,9 @@ public:
 
 private:
   bool Wanted(const Sign& sign) const;
+  /// Whether backs of surfaces are all that is seen from before a place: it is in a solid that a
+  /// part of the sign is sunk into.
+  bool Sunk(const Sign& sign, const Vec3& place) const;
   struct Result
   {
     Lanes Illuminance;

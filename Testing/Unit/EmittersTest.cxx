@@ -170,6 +170,59 @@ TEST(Emitters, BoardsOfASign)
   }
 }
 
+// A line of light along an L of many cells is two lights, for the rectangle around both is empty;
+// so are two boards of a sign in one plane, and around a ring none is far from it.
+TEST(Emitters, LightsFillTheirRectangles)
+{
+  std::vector<EmitterCell> line;
+  for (int i = 0; i < 12; ++i)
+  {
+    line.push_back(Rectangle(0.5 * i, 0.5 * i + 0.5, 0.0, 0.1, 3.0, -1));
+    line.push_back(Rectangle(0.0, 0.1, 0.5 * i + 0.1, 0.5 * i + 0.6, 3.0, -1));
+  }
+  std::vector<EmitterCell> boards;
+  for (int i = 0; i < 40; ++i)
+  {
+    const double begin = 0.01 * i + (i < 25 ? 0.0 : 6.0);
+    boards.push_back(Rectangle(begin, begin + 0.01, 0.0, 0.2, i % 2 == 0 ? 3.0 : 0.0, 0));
+  }
+  std::vector<EmitterCell> ring;
+  constexpr int Sides = 120;
+  for (int i = 0; i < Sides; ++i)
+  {
+    const double a = 2.0 * Pi * i / Sides;
+    const double b = 2.0 * Pi * (i + 1) / Sides;
+    EmitterCell cell;
+    cell.Vertices = {{0.9 * std::cos(a), 0.9 * std::sin(a), 0}, {std::cos(a), std::sin(a), 0},
+      {std::cos(b), std::sin(b), 0}, {0.9 * std::cos(b), 0.9 * std::sin(b), 0}};
+    cell.Luminance.fill(3.0);
+    ring.push_back(cell);
+  }
+  for (const auto& [cells, count] : {std::pair{line, 2U}, {boards, 2U}, {ring, 8U}})
+  {
+    const EmitterSet set(cells, 1, AnySize);
+    EXPECT_EQ(set.Lights().size(), count);
+    double intensity = 0.0;
+    for (std::size_t light = 0; light < set.Lights().size(); ++light)
+    {
+      double sum = 0.0;
+      double area = 0.0;
+      AddLeaves(set, set.Lights()[light], set.Root(light), sum, area);
+      EXPECT_NEAR(sum, set.Root(light).Intensity[0], 1e-9);
+      intensity += sum;
+    }
+    EXPECT_NEAR(Pi * intensity, set.Flux(0), 1e-9);
+    for (const LightGroup& group : set.Groups())
+    {
+      for (const Vec3& corner : group.Corners)
+      {
+        const bool besideRing = std::abs(glm::length(corner) - 0.95) > 0.06;
+        EXPECT_FALSE(count == 8 && group.FirstChild < 0 && besideRing) << corner.x;
+      }
+    }
+  }
+}
+
 // A checkerboard of many cells lights as a lattice with the same intensity, in the same rectangle.
 TEST(Emitters, PatternsOfManyCellsAreCoarsened)
 {

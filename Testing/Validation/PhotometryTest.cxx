@@ -97,6 +97,36 @@ TEST(Photometry, NoLightIsLost)
   }
 }
 
+// In a room where boxes of smoke are far from the lamp as it counts, beams end within them and all
+// that is beyond gets nothing: light is neither lost nor not a number.
+TEST(Photometry, SharpBeams)
+{
+  report::Head("Flux of lamps with sharp beams in a closed room with smoke [lm]");
+  const auto check = [](const std::string& name, const EmitterCell& lamp)
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.5;
+    scene.Emitters = {lamp};
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {8, 6, 3}, {40, 30, 15}, 0.5)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), {8, 6, 3}, 0.25, 0.5);
+    const Solved solved(std::move(scene), 0.1);
+    const Estimate smoke = solved.AbsorbedInSmoke();
+    const Estimate surfaces = solved.AbsorbedOnSurfaces();
+    report::Relative(name, solved.TheScene->Lights().Flux(0), smoke.Mean + surfaces.Mean, 0.02,
+      std::hypot(smoke.StandardError, surfaces.StandardError));
+    EXPECT_GT(smoke.StandardError, 0.0);
+  };
+  EmitterCell lamp =
+    scenes::Plate({4.1, 3.1, 2.98}, {0, 0, -1}, {1, 0, 0}, LampSide, LampSide, 5000.0);
+  lamp.Table = std::make_shared<IntensityTable>(std::vector<double>{0, 30, 60, 65, 90},
+    std::vector<double>{0}, std::vector<double>{100, 100, 80, 0, 0});
+  lamp.TableAxis = {1, 0, 0};
+  check("cut off at 65 degrees", lamp);
+  lamp.Table = nullptr;
+  lamp.Exponent = 300.0;
+  check("exponent 300", lamp);
+}
+
 // What an eye sees of the lamp is candela over its projected area.
 TEST(Photometry, LuminanceThatAnEyeSees)
 {

@@ -227,6 +227,29 @@ TEST(OddInput, SmokeInALargeScene)
   }
 }
 
+// Half of a sign that only reflects is sunk into a block: what shows of it is as bright as a sign
+// that ends there, and as the reference integrator has it.
+TEST(OddInput, ReflectingSignHalfInABlock)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.5;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4, 4, 3), {16, 16, 12}, 0.2)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4, 4, 3), 0.5, 0.6);
+  scenes::AddBlock(scene.Surfaces, {1, 3, 0}, {2, 4, 3}, 0.5, 0.6);
+  scene.Emitters = {scenes::Plate({3, 1, 2.99}, {0, 0, -1}, {1, 0, 0}, 0.4, 0.4, 5000.0),
+    scenes::Plate({2, 3.5, 1.5}, {0, -1, 0}, {0, 0, 1}, 1.0, 0.4, 0.0, 0.8, 0)};
+  const Solved solved(std::move(scene), 0.02);
+  const Vec3 eye(2.3, 1.0, 1.5);
+  const Ray ray{eye, {0, 1, 0}};
+  const ReferenceIntegrator integrator(*solved.TheScene);
+  const Estimate reference = integrator.Radiance(ray, 100000, 5);
+  const Estimate value = solved.Luminance(ray);
+  report::Head("What shows of a reflecting sign that is half in a block");
+  report::Relative("luminance [cd/m2]", reference.Mean, value.Mean, 0.02,
+    std::hypot(reference.StandardError, value.StandardError));
+  EXPECT_LT(value.StandardError, 0.02 * value.Mean);
+}
+
 // The sign may lie in the wall, a hair in front of it or a hair behind it.
 TEST(OddInput, SignFlushWithTheWall)
 {

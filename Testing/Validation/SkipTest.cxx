@@ -155,6 +155,36 @@ TEST(Skip, ThinClearGapBesideALamp)
   report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
 }
 
+// A curtain of smoke leaves one layer of cells clear; which of a block's eight it is must not
+// matter.
+TEST(Skip, AnyClearLayer)
+{
+  report::Head("Light of a lamp through one clear layer of a curtain, with ways told and without");
+  const Vec3 upper(12.0, 2.4, 2.4);
+  for (int layer = 8; layer < 16; ++layer)
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.0;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 24, 24}, 0.05)};
+    std::vector<float>& extinction = scene.Grids[0].Extinction;
+    for (int z = 0; z < 24; ++z)
+    {
+      for (int y = 0; y < 24; ++y)
+      {
+        for (int x = 80; x < 90; ++x)
+        {
+          extinction[x + 120 * (y + 24 * z)] = z == layer ? 0.0F : 2.0F;
+        }
+      }
+    }
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, 0.0);
+    scene.Emitters = {
+      scenes::Plate({0.1, 1.2, 0.1 * layer + 0.05}, {1, 0, 0}, {0, 0, 1}, 0.1, 0.1, 1e5)};
+    report::Absolute("layer " + std::to_string(layer), 0.0,
+      LargestChange(Solve(scene, true), Solve(scene, false)), 0.005);
+  }
+}
+
 // Rays that leap over clear air meet the same smoke at the same distances: the light field and what
 // is seen in it are the same to the bit. A layer under the ceiling, a wall that cuts cells, and a
 // clear passage through the smoke.

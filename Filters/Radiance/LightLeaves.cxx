@@ -1,0 +1,280 @@
+#include "LightLeaves.h"
+
+#include "PlatePattern.h"
+#include "Triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Least share of the rectangle around a light that the light fills.
+constexpr double LeastFilled = 0.25;
+/// A cut that does not take this share of the rectangles away is made in the middle.
+constexpr double SmallestGain = 0.1;
+/// Rectangles of a lattice along its longer side, and how often these are halved at most.
+constexpr double LatticeAcross = 4.0;
+constexpr int Halvings = 2;
+/// Share of a rectangle, by the number of halvings left, above which the board counts as filling
+/// it.
+constexpr std::array<double, Halvings> FullShares = {0.75, 0.95};
+
+/// Rectangles in the plane of a light, with edges along the first edge of a leaf.
+class Plane
+{
+public:
+  explicit Plane(const LightGroup& leaf)
+      : Origin_(leaf.Corners[0]), U_(glm::normalize(leaf.Corners[1] - leaf.Corners[0])),
+        V_(glm::cross(leaf.Normal, U_))
+  {
+  }
+
+  glm::dvec2 Place(const Vec3& point) const
+  {
+    return {glm::dot(point - this->Origin_, this->U_), glm::dot(point - this->Origin_, this->V_)};
+  }
+  Vec3 Point(const glm::dvec2& place) const
+  {
+    return this->Origin_ + place.x * this->U_ + place.y * this->V_;
+  }
+
+private:
+  Vec3 Origin_, U_, V_;
+};
+
+struct Rectangle
+{
+  glm::dvec2 Low{1e300};
+  glm::dvec2 High{-1e300};
+
+  void Add(const Plane& plane, const LightGroup& leaf)
+  {
+    for (const Vec3& corner : leaf.Corners)
+    {
+      const glm::dvec2 place = plane.Place(corner);
+      this->Low = glm::min(this->Low, place);
+      this->High = glm::max(this->High, place);
+    }
+  }
+  glm::dvec2 Size() const { return this->High - this->Low; }
+  double Area() const { return this->Size().x * this->Size().y; }
+};
+
+/// Orders leaves along the axis across which a cut leaves the least rectangles on both sides, and
+/// returns the first leaf behind it.
+std::size_t Cut(const Plane& plane, const Rectangle& around, std::vector<LightGroup>& leaves)
+{
+  const auto order = [&](int axis)
+  {
+    std::stable_sort(leaves.begin(), leaves.end(),
+      [&](const LightGroup& a, const LightGroup& b)
+      { return plane.Place(a.Centre)[axis] < plane.Place(b.Centre)[axis]; });
+  };
+  double least = (1.0 - SmallestGain) * around.Area();
+  const glm::dvec2 size = around.Size();
+  int best = size.x >= size.y ? 0 : 1;
+  std::size_t place = leaves.size() / 2;
+  for (const int axis : {0, 1})
+  {
+    order(axis);
+    std::vector<double> behind(leaves.size());
+    Rectangle rest;
+    for (std::size_t i = leaves.size(); i-- > 1;)
+    {
+      rest.Add(plane, leaves[i]);
+      behind[i] = rest.Area();
+    }
+    Rectangle before;
+    for (std::size_t i = 1; i < leaves.size(); ++i)
+    {
+      before.Add(plane, leaves[i - 1]);
+      if (before.Area() + behind[i] < least)
+      {
+        least = before.Area() + behind[i];
+        best = axis;
+        place = i;
+      }
+    }
+  }
+  order(best);
+  return place;
+}
+
+} // namespace
+
+LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
+  const EmissionLaw& law, const std::array<Vec3, 4>& corners)
+{
+  LightGroup leaf;
+  leaf.Corners = corners;
+  leaf.Normal = normal;
+  leaf.Law = law;
+  leaf.SignId = signId;
+  for (const Triangle& half :
+    {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
+  {
+    const double area = AreaOf(half);
+    leaf.Area += area;
+    leaf.Centre += area * (half[0] + half[1] + half[2]);
+  }
+  leaf.Centre /= 3.0 * leaf.Area;
+  for (const Vec3& corner : corners)
+  {
+    leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
+  }
+  for (int band = 0; band < MaxBands; ++band)
+  {
+    leaf.Intensity[band] = luminance[band] * leaf.Area;
+  }
+  return leaf;
+}
+
+void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
+  std::vector<LightGroup>& leaves)
+{
+  std::vector<Vec3> vertices = cell.Vertices;
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
+  {
+    const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
+    LightGroup leaf = MakeLeaf(
+      cell.Luminance, cell.SignId, normal, law, {vertices[0], vertices[v], vertices[v + 1], last});
+    if (leaf.Area > 1e-12 * area)
+    {
+      leaves.push_back(std::move(leaf));
+    }
+  }
+}
+
+std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
+{
+  std::vector<std::vector<LightGroup>> parts;
+  std::vector<std::vector<LightGroup>> open;
+  open.push_back(std::move(leaves));
+  while (!open.empty())
+  {
+    std::vector<LightGroup> part = std::move(open.back());
+    open.pop_back();
+    const Plane plane(part.front());
+    Rectangle around;
+    double area = 0.0;
+    for (const LightGroup& leaf : part)
+    {
+      around.Add(plane, leaf);
+      area += leaf.Area;
+    }
+    if (part.size() == 1 || area >= LeastFilled * around.Area())
+    {
+      parts.push_back(std::move(part));
+      continue;
+    }
+    const std::size_t cut = Cut(plane, around, part);
+    open.emplace_back(part.begin() + cut, part.end());
+    part.resize(cut);
+    open.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::vector<LightGroup> Coarsened(
+  const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark)
+{
+  const LightGroup& first = leaves.front();
+  const Plane plane(first);
+  Rectangle around;
+  for (const LightGroup& leaf : leaves)
+  {
+    around.Add(plane, leaf);
+  }
+  const glm::dvec2 size = around.Size();
+  std::vector<PatternCell> cells;
+  for (const auto* const group : {&leaves, &dark})
+  {
+    for (const LightGroup& leaf : *group)
+    {
+      PatternCell cell;
+      for (const Vec3& corner : leaf.Corners)
+      {
+        cell.Corners.push_back((plane.Place(corner) - around.Low) / size);
+      }
+      cell.Value[0] = 1.0;
+      for (int band = 0; band < MaxBands; ++band)
+      {
+        cell.Value[1 + band] = leaf.Intensity[band] / leaf.Area;
+      }
+      cells.push_back(std::move(cell));
+    }
+  }
+  constexpr int Parts = 1 << Halvings;
+  const double edge = std::max(size.x, size.y) / LatticeAcross;
+  const auto borders = [edge](double length)
+  {
+    const int count = Parts * std::max(1, static_cast<int>(std::lround(length / edge)));
+    std::vector<double> ends;
+    for (int i = 0; i <= count; ++i)
+    {
+      ends.push_back(static_cast<double>(i) / count);
+    }
+    return ends;
+  };
+  const std::vector<double> across = borders(size.x);
+  const std::vector<double> up = borders(size.y);
+  const PlatePattern pattern(cells, PatternAxis(across, 0), PatternAxis(up, 0));
+  const auto corner = [&](std::size_t column, std::size_t row)
+  { return plane.Point(around.Low + glm::dvec2(across[column], up[row]) * size); };
+  std::vector<LightGroup> lattice;
+  const auto add = [&](auto&& self, std::size_t column, std::size_t row, int halvings) -> void
+  {
+    const std::size_t count = std::size_t{1} << halvings;
+    PatternVector sum{};
+    for (std::size_t j = row; j < row + count; ++j)
+    {
+      for (std::size_t i = column; i < column + count; ++i)
+      {
+        const PatternVector& own = pattern.Blocks()[i + j * (across.size() - 1)].Sum;
+        for (int value = 0; value <= MaxBands; ++value)
+        {
+          sum[value] += own[value];
+        }
+      }
+    }
+    const double area = (across[column + count] - across[column]) * (up[row + count] - up[row]);
+    if (halvings > 0 && sum[0] < FullShares[halvings - 1] * area)
+    {
+      const std::size_t half = count / 2;
+      for (const std::size_t j : {row, row + half})
+      {
+        for (const std::size_t i : {column, column + half})
+        {
+          self(self, i, j, halvings - 1);
+        }
+      }
+      return;
+    }
+    Spectrum luminance{};
+    for (int band = 0; band < MaxBands; ++band)
+    {
+      luminance[band] = sum[1 + band] / area;
+    }
+    if (*std::max_element(luminance.begin(), luminance.end()) > 0.0)
+    {
+      lattice.push_back(MakeLeaf(luminance, first.SignId, first.Normal, first.Law,
+        {corner(column, row), corner(column + count, row), corner(column + count, row + count),
+          corner(column, row + count)}));
+    }
+  };
+  for (std::size_t row = 0; row + 1 < up.size(); row += Parts)
+  {
+    for (std::size_t column = 0; column + 1 < across.size(); column += Parts)
+    {
+      add(add, column, row, Halvings);
+    }
+  }
+  return lattice;
+}
+
+} // namespace smokevis

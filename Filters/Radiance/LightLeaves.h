@@ -1,0 +1,30 @@
+// The leaves that a light's tree is made of.
+#pragma once
+
+#include "Emitters.h"
+
+#include <array>
+#include <vector>
+
+namespace smokevis
+{
+
+/// A quadrilateral that emits evenly (a triangle repeats its last corner).
+LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
+  const EmissionLaw& law, const std::array<Vec3, 4>& corners);
+
+/// A polygon's leaves; corners in one line span nothing and make none.
+void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
+  std::vector<LightGroup>& leaves);
+
+/// Divides leaves of one plane so that each group fills a quarter at least of the rectangle around
+/// it: what is worked out of a light from afar takes it for such a rectangle.
+std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves);
+
+/// A lattice of rectangles that send out what a pattern of many leaves does, finer where the board
+/// ends: light must not come from beside it.
+/// @param dark the board's leaves that send out nothing
+std::vector<LightGroup> Coarsened(
+  const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark);
+
+} // namespace smokevis
