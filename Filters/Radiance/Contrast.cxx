@@ -1,10 +1,13 @@
 #include "Contrast.h"
 
 #include "PixelMoments.h"
+#include "PlateEdges.h"
 #include "PlateVeil.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include <glm/gtc/constants.hpp>
 
@@ -23,6 +26,8 @@ constexpr double UncertainContrast = 0.005;
 constexpr double FaintShare = 0.01;
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
 constexpr int MostPixels = 512;
+/// Share of the way to a cell's middle at which its corner is looked at.
+constexpr double CornerInset = 0.01;
 
 /// Angle that the segment between two points spans at the eye [rad].
 double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
@@ -173,6 +178,15 @@ public:
   SignMeasurement Measure(double cutOff);
 
 private:
+  /// Blocks that light arrives from alike.
+  struct Zone
+  {
+    /// Of what is seen of it: solid angle, and middle.
+    double Weight = 0.0;
+    glm::dvec2 Middle{0.0};
+    /// A cell that it shows.
+    std::size_t Cell = 0;
+  };
   /// A plane part of the sign as the eye sees it.
   struct Part
   {
@@ -180,22 +194,39 @@ private:
     std::vector<SeenBlock> Blocks;
     /// Middle of what there is of each block.
     std::vector<glm::dvec2> Middles;
+    /// The zone of each block.
+    std::vector<std::size_t> ZoneOf;
+    std::vector<Zone> Zones;
   };
 
   std::array<int, 2> Pixels() const;
-  PlatePattern PatternOf(const Facet& facet, const std::array<int, 2>& pixels) const;
+  PlateBorders Borders() const;
+  PlatePattern PatternOf(
+    const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const;
+  /// What is seen of the facets in whole blocks, a zone each.
+  std::vector<Part> WholeParts(const std::vector<Facet>& facets, const std::array<int, 2>& pixels,
+    const PlateBorders& borders);
+  /// The same where something hides a part: blocks are halved there, and stay one zone.
+  std::vector<Part> CutParts(const std::vector<Facet>& facets, const PlateBorders& borders);
   /// The point of a facet in front of a place on the sign's rectangle.
   Vec3 OnFacet(const Facet& facet, const glm::dvec2& place) const;
   /// Share of a block's places that the eye sees.
   double VisibleShare(const Facet& facet, const PatternBlock& block) const;
   double DensityOf(const Facet& facet, const Vec3& point) const;
   void FindVisible(const Facet& facet, Part& part);
-  void FillFactors(
-    const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen);
+  void FillZones(Part& part) const;
+  void FillFactors(const Facet& facet, const Zone& zone, bool reflects, Coefficients& factors);
+  void FillFactors(const Facet& facet, Part& part);
+  void MakeVeils(const std::vector<Facet>& facets, const std::vector<Part>& parts);
   void FillMeans(const std::vector<Part>& parts);
   void AddVeil(std::vector<Part>& parts);
   /// Finds contrasts of what the blocks show, and the mean.
   void FillContrast(const std::vector<Part>& parts);
+  /// Whether an outermost corner of a facet shows where nothing else was seen to, or is hidden
+  /// where something was seen.
+  bool CornerDiffers(const Facet& facet) const;
+  /// Whether something hides a part of what faces the eye.
+  bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
   /// Adds the veil, and finds contrasts and all that depends on it.
   void FillResult(std::vector<Part>& parts);
 
@@ -208,7 +239,9 @@ private:
   std::vector<bool> Lit_;
   PlateColumns Across_, Up_;
   Vec3 EdgeU_, EdgeV_;
+  /// Of each band, over the plate or, where it is partly hidden, before the zones of all parts.
   std::vector<PlateVeil> Veils_;
+  std::vector<ShownVeil> ShownVeils_;
   /// Weights of all that faces the eye and of what it sees of that.
   double All_ = 0.0;
   double Seen_ = 0.0;
@@ -240,7 +273,16 @@ std::array<int, 2> SignLook::Pixels() const
   return {std::max(1, static_cast<int>(wide)), std::max(1, static_cast<int>(high))};
 }
 
-PlatePattern SignLook::PatternOf(const Facet& facet, const std::array<int, 2>& pixels) const
+PlateBorders SignLook::Borders() const
+{
+  const double width = glm::length(this->EdgeU_);
+  const double height = glm::length(this->EdgeV_);
+  const double largest = std::max(width, height) / BlocksAcross;
+  return {BlockBorders(this->Across_, largest / width), BlockBorders(this->Up_, largest / height)};
+}
+
+PlatePattern SignLook::PatternOf(
+  const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const
 {
   std::vector<PatternCell> cells;
   for (const std::size_t index : facet.Cells)
@@ -260,11 +302,76 @@ PlatePattern SignLook::PatternOf(const Facet& facet, const std::array<int, 2>& p
     cell.Lit = this->Lit_[index];
     cells.push_back(std::move(cell));
   }
-  const double width = glm::length(this->EdgeU_);
-  const double height = glm::length(this->EdgeV_);
-  const double largest = std::max(width, height) / BlocksAcross;
-  return {cells, PatternAxis(BlockBorders(this->Across_, largest / width), pixels[0]),
-    PatternAxis(BlockBorders(this->Up_, largest / height), pixels[1])};
+  return {cells, PatternAxis(borders[0], pixels[0]), PatternAxis(borders[1], pixels[1])};
+}
+
+std::vector<SignLook::Part> SignLook::WholeParts(
+  const std::vector<Facet>& facets, const std::array<int, 2>& pixels, const PlateBorders& borders)
+{
+  std::vector<Part> parts;
+  for (const Facet& facet : facets)
+  {
+    parts.push_back({this->PatternOf(facet, pixels, borders), {}, {}, {}, {}});
+    Part& part = parts.back();
+    this->FindVisible(facet, part);
+    part.ZoneOf.resize(part.Blocks.size());
+    std::iota(part.ZoneOf.begin(), part.ZoneOf.end(), std::size_t{0});
+  }
+  return parts;
+}
+
+bool SignLook::CornerDiffers(const Facet& facet) const
+{
+  // Into the eight directions of a compass card.
+  for (int direction = 0; direction < 8; ++direction)
+  {
+    const double angle = 0.25 * glm::pi<double>() * direction;
+    const Vec3 way = std::cos(angle) * this->EdgeU_ + std::sin(angle) * this->EdgeV_;
+    double farthest = -std::numeric_limits<double>::infinity();
+    Vec3 corner(0.0);
+    for (const std::size_t cell : facet.Cells)
+    {
+      for (const Vec3& vertex : this->Lights_.Cells()[cell].Vertices)
+      {
+        if (glm::dot(vertex, way) > farthest)
+        {
+          farthest = glm::dot(vertex, way);
+          corner = vertex + CornerInset * (this->Lights_.CellCentre(cell) - vertex);
+        }
+      }
+    }
+    if (Sees(this->View_, this->Eye_, corner, facet.Cells.front()) != (this->Seen_ > 0.0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<SignLook::Part> SignLook::CutParts(
+  const std::vector<Facet>& facets, const PlateBorders& borders)
+{
+  this->All_ = 0.0;
+  this->Seen_ = 0.0;
+  std::vector<Part> parts;
+  for (const Facet& facet : facets)
+  {
+    PlateBorders halved = borders;
+    HalveAtEdges(halved, [&](const glm::dvec2& place)
+      { return Sees(this->View_, this->Eye_, this->OnFacet(facet, place), facet.Cells.front()); });
+    parts.push_back({this->PatternOf(facet, {0, 0}, halved), {}, {}, {}, {}});
+    Part& part = parts.back();
+    this->FindVisible(facet, part);
+    const std::vector<std::size_t> columns = BlocksBefore(borders[0], halved[0]);
+    for (const std::size_t row : BlocksBefore(borders[1], halved[1]))
+    {
+      for (const std::size_t column : columns)
+      {
+        part.ZoneOf.push_back(column + row * (borders[0].size() - 1));
+      }
+    }
+  }
+  return parts;
 }
 
 Vec3 SignLook::OnFacet(const Facet& facet, const glm::dvec2& place) const
@@ -298,17 +405,62 @@ double SignLook::DensityOf(const Facet& facet, const Vec3& point) const
   return std::max(0.0, area * glm::dot(to, facet.Normal) / (square * std::sqrt(square)));
 }
 
-void SignLook::FillFactors(
-  const Facet& facet, const PatternBlock& block, const glm::dvec2& place, SeenBlock& seen)
+void SignLook::FillZones(Part& part) const
 {
-  const Vec3 point = this->OnFacet(facet, place);
-  const double weight = seen.Density * block.Sum[0];
+  part.Zones.resize(1 + *std::max_element(part.ZoneOf.begin(), part.ZoneOf.end()));
+  std::vector<double> largest(part.Zones.size(), 0.0);
+  for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+  {
+    const PatternBlock& block = part.Pattern.Blocks()[i];
+    const double weight = part.Blocks[i].Density * block.Sum[0];
+    Zone& zone = part.Zones[part.ZoneOf[i]];
+    zone.Weight += weight;
+    zone.Middle += weight * part.Middles[i];
+    if (weight > largest[part.ZoneOf[i]])
+    {
+      largest[part.ZoneOf[i]] = weight;
+      zone.Cell = block.Places.front().Cell;
+    }
+  }
+  for (Zone& zone : part.Zones)
+  {
+    zone.Middle = zone.Weight > 0.0 ? zone.Middle / zone.Weight : zone.Middle;
+  }
+}
+
+void SignLook::FillFactors(const Facet& facet, Part& part)
+{
+  std::vector<bool> reflects(part.Zones.size(), false);
+  for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+  {
+    const PatternVector& sum = part.Pattern.Blocks()[i].Sum;
+    reflects[part.ZoneOf[i]] =
+      reflects[part.ZoneOf[i]] || *std::max_element(sum.begin() + 1 + MaxBands, sum.end()) > 0.0;
+  }
+  std::vector<Coefficients> factors(part.Zones.size());
+  for (std::size_t zone = 0; zone < part.Zones.size(); ++zone)
+  {
+    if (part.Zones[zone].Weight > 0.0)
+    {
+      this->FillFactors(facet, part.Zones[zone], reflects[zone], factors[zone]);
+    }
+  }
+  for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+  {
+    part.Blocks[i].Factors = factors[part.ZoneOf[i]];
+  }
+}
+
+void SignLook::FillFactors(
+  const Facet& facet, const Zone& zone, bool reflects, Coefficients& factors)
+{
+  const Vec3 point = this->OnFacet(facet, zone.Middle);
   const Scene& scene = this->View_.TheScene();
   const Vec3 way = point - this->Eye_;
   const double distance = glm::length(way);
   const Vec3 direction = way / distance;
   const double depth = scene.Smoke().OpticalDepth(this->Eye_, direction, 0.0, distance);
-  const std::size_t cell = facet.Cells[block.Places.front().Cell];
+  const std::size_t cell = facet.Cells[zone.Cell];
   const double relative =
     this->Lights_.CellLaw(cell).Relative(-direction, -glm::dot(direction, facet.Normal));
   for (int band = 0; band < this->Bands_; ++band)
@@ -318,7 +470,7 @@ void SignLook::FillFactors(
     const double transmitted = share * std::exp(-bandDepth);
     Lanes multiple;
     double steady = 0.0;
-    if (block.Sum[1 + MaxBands + band] > 0.0)
+    if (reflects)
     {
       const double illuminance = this->View_.Illuminance(
         scene.SurfacePatches() + cell, 0, point, facet.Normal, band, multiple);
@@ -326,11 +478,11 @@ void SignLook::FillFactors(
     }
     for (int batch = 0; batch < Batches; ++batch)
     {
-      seen.Factors[batch][1 + band] = transmitted * relative;
-      seen.Factors[batch][1 + MaxBands + band] =
+      factors[batch][1 + band] = transmitted * relative;
+      factors[batch][1 + MaxBands + band] =
         transmitted * (steady + multiple[batch]) / glm::pi<double>();
     }
-    this->Result_.OpticalDepth += weight * share * bandDepth;
+    this->Result_.OpticalDepth += zone.Weight * share * bandDepth;
   }
 }
 
@@ -394,29 +546,63 @@ void SignLook::FillMeans(const std::vector<Part>& parts)
   result.MeanLuminanceError = StandardError(mean);
 }
 
+void SignLook::MakeVeils(const std::vector<Facet>& facets, const std::vector<Part>& parts)
+{
+  std::vector<Vec3> places;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    for (const Zone& zone : parts[i].Zones)
+    {
+      if (zone.Weight > 0.0)
+      {
+        places.push_back(this->OnFacet(facets[i], zone.Middle));
+        weights.push_back(zone.Weight);
+      }
+    }
+  }
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    if (this->PartlyHidden())
+    {
+      this->ShownVeils_.emplace_back(this->View_, this->Eye_, band, places, weights);
+    }
+    else
+    {
+      this->Veils_.emplace_back(
+        this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
+    }
+  }
+}
+
 void SignLook::AddVeil(std::vector<Part>& parts)
 {
+  std::size_t place = 0;
   for (Part& part : parts)
   {
-    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    std::vector<DoubleLanes> veils(part.Zones.size());
+    for (std::size_t zone = 0; zone < part.Zones.size(); ++zone)
     {
-      SeenBlock& seen = part.Blocks[i];
-      if (!(seen.Density > 0.0))
+      if (!(part.Zones[zone].Weight > 0.0))
       {
         continue;
       }
-      DoubleLanes sum{};
       for (int band = 0; band < this->Bands_; ++band)
       {
-        const Lanes veil = this->Veils_[band].At(part.Middles[i]);
+        const Lanes veil = this->PartlyHidden() ? this->ShownVeils_[band].At(place)
+                                                : this->Veils_[band].At(part.Zones[zone].Middle);
         for (int batch = 0; batch < Batches; ++batch)
         {
-          sum[batch] += BandWeight(this->View_, band) * veil[batch];
+          veils[zone][batch] += BandWeight(this->View_, band) * veil[batch];
         }
       }
+      ++place;
+    }
+    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
+    {
       for (int batch = 0; batch < Batches; ++batch)
       {
-        seen.Factors[batch][0] = sum[batch];
+        part.Blocks[i].Factors[batch][0] = veils[part.ZoneOf[i]][batch];
       }
     }
   }
@@ -452,26 +638,23 @@ SignMeasurement SignLook::Measure(double cutOff)
     return {};
   }
   const std::array<int, 2> pixels = this->Pixels();
-  std::vector<Part> parts;
-  for (const Facet& facet : facets)
+  const PlateBorders borders = this->Borders();
+  std::vector<Part> parts = this->WholeParts(facets, pixels, borders);
+  const bool cut = (this->PartlyHidden() && this->Seen_ > 0.0) ||
+                   std::any_of(facets.begin(), facets.end(),
+                     [this](const Facet& facet) { return this->CornerDiffers(facet); });
+  if (cut && pixels[0] == 0)
   {
-    parts.push_back({this->PatternOf(facet, pixels), {}, {}});
-    this->FindVisible(facet, parts.back());
+    parts = this->CutParts(facets, borders);
   }
   if (!(this->Seen_ > 0.0))
   {
     return {};
   }
-  for (std::size_t index = 0; index < parts.size(); ++index)
+  for (std::size_t i = 0; i < parts.size(); ++i)
   {
-    Part& part = parts[index];
-    for (std::size_t i = 0; i < part.Blocks.size(); ++i)
-    {
-      if (part.Blocks[i].Density > 0.0)
-      {
-        this->FillFactors(facets[index], part.Pattern.Blocks()[i], part.Middles[i], part.Blocks[i]);
-      }
-    }
+    this->FillZones(parts[i]);
+    this->FillFactors(facets[i], parts[i]);
   }
   SignMeasurement& result = this->Result_;
   result.InView = true;
@@ -483,11 +666,7 @@ SignMeasurement SignLook::Measure(double cutOff)
       return {.InView = true, .BelowCutOff = true};
     }
   }
-  for (int band = 0; band < this->Bands_; ++band)
-  {
-    this->Veils_.emplace_back(
-      this->View_, this->Plate_, this->Eye_, band, this->Across_, this->Up_);
-  }
+  this->MakeVeils(facets, parts);
   result.VisibleFraction = this->Seen_ / this->All_;
   result.OpticalDepth /= this->Seen_;
   this->FillResult(parts);
@@ -498,7 +677,9 @@ SignMeasurement SignLook::Measure(double cutOff)
   {
     for (int band = 0; band < this->Bands_; ++band)
     {
-      result.Rays += this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band);
+      result.Rays += this->PartlyHidden()
+                       ? this->ShownVeils_[band].Gather(this->View_, this->Eye_, band)
+                       : this->Veils_[band].Gather(this->View_, this->Plate_, this->Eye_, band);
     }
     this->FillResult(parts);
   }

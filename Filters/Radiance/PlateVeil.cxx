@@ -1,9 +1,8 @@
 #include "PlateVeil.h"
 
 #include "GaussNodes.h"
-#include "VeilGather.h"
-
 #include <algorithm>
+#include <numeric>
 
 namespace smokevis
 {
@@ -16,6 +15,22 @@ constexpr std::size_t MostColumns = 16;
 /// Errors of sixteen batches are known to a fifth: what is gathered is clearly better where its
 /// error is below this share of the other.
 constexpr double BetterShare = 0.7;
+
+/// What is gathered over what is known, where it is clearly better; else 0. And the rays that took.
+GatheredVeil GatherChange(const View& view, const Vec3& eye, const std::vector<SightLine>& lines,
+  const Lanes& known, int band)
+{
+  GatheredVeil change = view.GatherVeil(eye, lines, band);
+  if (StandardError(change.Multiple) < BetterShare * StandardError(known))
+  {
+    Add(change.Multiple, known, -1.0F);
+  }
+  else
+  {
+    change.Multiple = {};
+  }
+  return change;
+}
 
 } // namespace
 
@@ -142,19 +157,15 @@ std::size_t PlateVeil::Gather(const View& view, const Sign& sign, const Vec3& ey
       Add(known, this->Far_[j][i].VeilMultiple, static_cast<float>(weight));
     }
   }
-  const GatheredVeil gathered = view.GatherVeil(eye, lines, band);
-  if (StandardError(gathered.Multiple) < BetterShare * StandardError(known))
+  const GatheredVeil change = GatherChange(view, eye, lines, known, band);
+  for (auto& row : this->Far_)
   {
-    for (auto& row : this->Far_)
+    for (RayLight& light : row)
     {
-      for (RayLight& light : row)
-      {
-        Add(light.VeilMultiple, gathered.Multiple, 1.0F);
-        Add(light.VeilMultiple, known, -1.0F);
-      }
+      Add(light.VeilMultiple, change.Multiple, 1.0F);
     }
   }
-  return gathered.Rays;
+  return change.Rays;
 }
 
 RayLight PlateVeil::Trace(
@@ -166,6 +177,44 @@ RayLight PlateVeil::Trace(
   const double border = this->FarEnd(distance);
   return far ? view.TraceVeil(eye, direction, 0.0, border, band)
              : view.TraceVeil(eye, direction, border, distance, band);
+}
+
+ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<Vec3>& places,
+  const std::vector<double>& weights)
+{
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (std::size_t place = 0; place < places.size(); ++place)
+  {
+    const Vec3 to = places[place] - eye;
+    const double distance = glm::length(to);
+    this->Lines_.push_back({to / distance, distance, weights[place] / all});
+    this->Lights_.push_back(view.TraceVeil(eye, to / distance, 0.0, distance, band));
+  }
+}
+
+Lanes ShownVeil::At(std::size_t place) const
+{
+  Lanes veil = this->Lights_[place].VeilMultiple;
+  for (float& value : veil.Value)
+  {
+    value += static_cast<float>(this->Lights_[place].VeilDirect);
+  }
+  return veil;
+}
+
+std::size_t ShownVeil::Gather(const View& view, const Vec3& eye, int band)
+{
+  Lanes known;
+  for (std::size_t i = 0; i < this->Lines_.size(); ++i)
+  {
+    Add(known, this->Lights_[i].VeilMultiple, static_cast<float>(this->Lines_[i].Weight));
+  }
+  const GatheredVeil change = GatherChange(view, eye, this->Lines_, known, band);
+  for (RayLight& light : this->Lights_)
+  {
+    Add(light.VeilMultiple, change.Multiple, 1.0F);
+  }
+  return change.Rays;
 }
 
 } // namespace smokevis

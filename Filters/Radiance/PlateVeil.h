@@ -1,6 +1,7 @@
 // Light that the smoke between an eye and a sign's plate adds, over the plate.
 #pragma once
 
+#include "VeilGather.h"
 #include "View.h"
 
 #include <algorithm>
@@ -62,6 +63,27 @@ private:
   std::array<std::array<RayLight, 3>, 3> Far_;
   /// Mean over each column of each row.
   std::vector<Lanes> Near_;
+};
+
+/// Veil before what shows of a plate that is partly hidden, in one band: rays past what hides it
+/// would tell of smoke that is not seen.
+class ShownVeil
+{
+public:
+  /// A ray goes to each place.
+  /// @param weights of the places in the veil's level
+  ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<Vec3>& places,
+    const std::vector<double>& weights);
+
+  /// The batches of the veil before one of the places [cd/m2].
+  Lanes At(std::size_t place) const;
+
+  /// As PlateVeil::Gather, of the whole ways.
+  std::size_t Gather(const View& view, const Vec3& eye, int band);
+
+private:
+  std::vector<SightLine> Lines_;
+  std::vector<RayLight> Lights_;
 };
 
 } // namespace smokevis

@@ -227,6 +227,59 @@ TEST(OddInput, SmokeInALargeScene)
   }
 }
 
+// A sign partly behind the corner of a bright side room: smoke in there is not on the way to what
+// shows. Against the mean over rays to places on the sign.
+TEST(OddInput, SignBehindACorner)
+{
+  report::Head("Sign behind the corner of a bright room");
+  for (const double lamp : {0.0, 5000.0})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.8;
+    const Vec3 upper(8, 5, 3);
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {32, 20, 12}, 0.8)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 1.0, 0.2);
+    scenes::AddRectangle(scene.Surfaces, {1, 2, 0}, {3, 0, 0}, {0, 0, 3}, 6, 6, 0.2);
+    scenes::AddRectangle(scene.Surfaces, {4, 2, 0}, {0, 3, 0}, {0, 0, 3}, 6, 6, 0.2);
+    scenes::AddRectangle(scene.Surfaces, {1, 2, 0}, {0, 3, 0}, {0, 0, 3}, 6, 6, 0.2);
+    scene.Emitters = scenes::Barcode({7.99, 2, 1.5}, {-1, 0, 0}, {0, 0, 1}, 1.2, 0.4, 5, 100.0, 0);
+    scene.Emitters.push_back(scenes::Plate({6, 1.5, 2.99}, {0, 0, -1}, {1, 0, 0}, 0.4, 0.4, 100.0));
+    scene.Emitters.push_back(
+      scenes::Plate({2.5, 3.5, 2.99}, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, lamp));
+    const Solved solved(std::move(scene), 0.03);
+    const Vec3 eye(0.5, 1.8, 1.5);
+    const Sign& sign = solved.TheScene->Lights().Signs()[0];
+    double weight = 0.0;
+    double first = 0.0;
+    double second = 0.0;
+    for (int i = 0; i < 200; ++i)
+    {
+      for (int j = 0; j < 8; ++j)
+      {
+        const Vec3 place = sign.Corners[0] +
+                           (i + 0.5) / 200.0 * (sign.Corners[1] - sign.Corners[0]) +
+                           (j + 0.5) / 8.0 * (sign.Corners[3] - sign.Corners[0]);
+        const Vec3 direction = glm::normalize(place - eye);
+        const Hit hit = solved.TheView->FirstHit(eye, direction);
+        if (hit.Emitter && hit.Side == 0)
+        {
+          const double luminance = solved.TheView->Trace(eye, direction, hit, 0).Total();
+          weight += 1.0;
+          first += luminance;
+          second += luminance * luminance;
+        }
+      }
+    }
+    const double mean = first / weight;
+    const double contrast = std::sqrt(second / weight - mean * mean) / mean;
+    const SignMeasurement measured = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
+    const std::string name = "lamp of " + std::to_string(lamp) + " cd/m2: ";
+    report::Absolute(name + "fraction", weight / 1600.0, measured.VisibleFraction, 0.005);
+    report::Absolute(name + "contrast", contrast, measured.Contrast, 0.005);
+    EXPECT_LT(measured.ContrastError, 0.01);
+  }
+}
+
 // Half of a sign that only reflects is sunk into a block: what shows of it is as bright as a sign
 // that ends there, and as the reference integrator has it.
 TEST(OddInput, ReflectingSignHalfInABlock)
