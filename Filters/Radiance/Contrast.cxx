@@ -3,11 +3,13 @@
 #include "PixelMoments.h"
 #include "PlateEdges.h"
 #include "PlateVeil.h"
+#include "PolygonClip.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numeric>
+#include <optional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -26,8 +28,8 @@ constexpr double UncertainContrast = 0.005;
 constexpr double FaintShare = 0.01;
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
 constexpr int MostPixels = 512;
-/// Share of the way to a cell's middle at which its corner is looked at.
-constexpr double CornerInset = 0.01;
+/// Signs of more facets are not cut at edges: their facets are small.
+constexpr std::size_t MostCutFacets = 8;
 
 /// Angle that the segment between two points spans at the eye [rad].
 double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
@@ -48,9 +50,9 @@ bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell
   const Vec3 to = point - eye;
   const double distance = glm::length(to);
   const Geometry& shapes = view.TheScene().Shapes();
-  const Hit hit =
-    view.FirstHit(eye, to / distance, distance + 20.0 * shapes.Tolerance() + 1e-5 * distance);
-  if (!hit.Found() || !hit.Emitter || hit.Side != 0)
+  const double reach = 20.0 * shapes.Tolerance() + 1e-5 * distance;
+  const Hit hit = view.FirstHit(eye, to / distance, distance + reach);
+  if (!hit.Found() || !hit.Emitter || hit.Side != 0 || hit.Distance < distance - reach)
   {
     return false;
   }
@@ -98,6 +100,8 @@ struct Facet
   Vec3 Normal;
   /// Its cells that face the eye.
   std::vector<std::size_t> Cells;
+  /// The first one that emits, if any does: it tells the law.
+  std::optional<std::size_t> Luminous;
 };
 
 std::vector<Facet> FacetsOf(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
@@ -112,21 +116,26 @@ std::vector<Facet> FacetsOf(const EmitterSet& lights, const Sign& sign, const Ve
     {
       continue;
     }
+    const bool luminous = Luminance(lights.Cells()[cell].Luminance, lights.Bands()) > 0.0;
     const auto same = [&](const Facet& facet)
     {
-      const std::size_t other = facet.Cells.front();
-      const Vec3 between = lights.CellCentre(cell) - lights.CellCentre(other);
+      const Vec3 between = lights.CellCentre(cell) - lights.CellCentre(facet.Cells.front());
       return glm::dot(facet.Normal, normal) > 1.0 - 1e-9 &&
              std::abs(glm::dot(between, normal)) < 1e-5 * sign.Radius &&
-             lights.CellLaw(cell) == lights.CellLaw(other);
+             (!luminous || !facet.Luminous ||
+               lights.CellLaw(cell) == lights.CellLaw(*facet.Luminous));
     };
     auto facet = std::find_if(facets.begin(), facets.end(), same);
     if (facet == facets.end())
     {
-      facets.push_back({normal, {}});
+      facets.push_back({normal, {}, {}});
       facet = facets.end() - 1;
     }
     facet->Cells.push_back(cell);
+    if (luminous && !facet->Luminous)
+    {
+      facet->Luminous = cell;
+    }
   }
   return facets;
 }
@@ -207,13 +216,20 @@ private:
   std::vector<Part> WholeParts(const std::vector<Facet>& facets, const std::array<int, 2>& pixels,
     const PlateBorders& borders);
   /// The same where something hides a part: blocks are halved there, and stay one zone.
-  std::vector<Part> CutParts(const std::vector<Facet>& facets, const PlateBorders& borders);
+  std::vector<Part> CutParts(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
+    const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);
+  /// @param cells of the facet, on the plate
+  PlateSight LookAt(
+    const Facet& facet, const std::vector<FlatPolygon>& cells, const glm::dvec2& place) const;
+  /// A look at each facet; the facets must outlive them.
+  std::vector<PlateLook> Looks(const std::vector<Facet>& facets) const;
   /// The point of a facet in front of a place on the sign's rectangle.
   Vec3 OnFacet(const Facet& facet, const glm::dvec2& place) const;
   /// Share of a block's places that the eye sees.
   double VisibleShare(const Facet& facet, const PatternBlock& block) const;
   double DensityOf(const Facet& facet, const Vec3& point) const;
-  void FindVisible(const Facet& facet, Part& part);
+  /// @param shares of the blocks that are seen; none: by the places of each
+  void FindVisible(const Facet& facet, const std::vector<double>& shares, Part& part);
   void FillZones(Part& part) const;
   void FillFactors(const Facet& facet, const Zone& zone, bool reflects, Coefficients& factors);
   void FillFactors(const Facet& facet, Part& part);
@@ -222,9 +238,6 @@ private:
   void AddVeil(std::vector<Part>& parts);
   /// Finds contrasts of what the blocks show, and the mean.
   void FillContrast(const std::vector<Part>& parts);
-  /// Whether an outermost corner of a facet shows where nothing else was seen to, or is hidden
-  /// where something was seen.
-  bool CornerDiffers(const Facet& facet) const;
   /// Whether something hides a part of what faces the eye.
   bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
   /// Adds the veil, and finds contrasts and all that depends on it.
@@ -313,55 +326,60 @@ std::vector<SignLook::Part> SignLook::WholeParts(
   {
     parts.push_back({this->PatternOf(facet, pixels, borders), {}, {}, {}, {}});
     Part& part = parts.back();
-    this->FindVisible(facet, part);
+    this->FindVisible(facet, {}, part);
     part.ZoneOf.resize(part.Blocks.size());
     std::iota(part.ZoneOf.begin(), part.ZoneOf.end(), std::size_t{0});
   }
   return parts;
 }
 
-bool SignLook::CornerDiffers(const Facet& facet) const
+PlateSight SignLook::LookAt(
+  const Facet& facet, const std::vector<FlatPolygon>& cells, const glm::dvec2& place) const
 {
-  // Into the eight directions of a compass card.
-  for (int direction = 0; direction < 8; ++direction)
+  if (std::none_of(
+        cells.begin(), cells.end(), [&](const FlatPolygon& cell) { return Holds(cell, place); }))
   {
-    const double angle = 0.25 * glm::pi<double>() * direction;
-    const Vec3 way = std::cos(angle) * this->EdgeU_ + std::sin(angle) * this->EdgeV_;
-    double farthest = -std::numeric_limits<double>::infinity();
-    Vec3 corner(0.0);
-    for (const std::size_t cell : facet.Cells)
-    {
-      for (const Vec3& vertex : this->Lights_.Cells()[cell].Vertices)
-      {
-        if (glm::dot(vertex, way) > farthest)
-        {
-          farthest = glm::dot(vertex, way);
-          corner = vertex + CornerInset * (this->Lights_.CellCentre(cell) - vertex);
-        }
-      }
-    }
-    if (Sees(this->View_, this->Eye_, corner, facet.Cells.front()) != (this->Seen_ > 0.0))
-    {
-      return true;
-    }
+    return PlateSight::Nothing;
   }
-  return false;
+  return Sees(this->View_, this->Eye_, this->OnFacet(facet, place), facet.Cells.front())
+           ? PlateSight::Seen
+           : PlateSight::Hidden;
 }
 
-std::vector<SignLook::Part> SignLook::CutParts(
-  const std::vector<Facet>& facets, const PlateBorders& borders)
+std::vector<PlateLook> SignLook::Looks(const std::vector<Facet>& facets) const
+{
+  std::vector<PlateLook> looks;
+  for (const Facet& facet : facets)
+  {
+    std::vector<FlatPolygon> cells;
+    for (const std::size_t cell : facet.Cells)
+    {
+      FlatPolygon& corners = cells.emplace_back();
+      for (const Vec3& vertex : this->Lights_.Cells()[cell].Vertices)
+      {
+        corners.push_back(PlaceOnPlate(this->Plate_, vertex));
+      }
+    }
+    looks.emplace_back([this, &facet, cells = std::move(cells)](const glm::dvec2& place)
+      { return this->LookAt(facet, cells, place); });
+  }
+  return looks;
+}
+
+std::vector<SignLook::Part> SignLook::CutParts(const std::vector<Facet>& facets,
+  const std::vector<PlateLook>& looks, const std::vector<std::vector<glm::dvec2>>& odd,
+  const PlateBorders& borders)
 {
   this->All_ = 0.0;
   this->Seen_ = 0.0;
   std::vector<Part> parts;
-  for (const Facet& facet : facets)
+  for (std::size_t i = 0; i < facets.size(); ++i)
   {
     PlateBorders halved = borders;
-    HalveAtEdges(halved, [&](const glm::dvec2& place)
-      { return Sees(this->View_, this->Eye_, this->OnFacet(facet, place), facet.Cells.front()); });
-    parts.push_back({this->PatternOf(facet, {0, 0}, halved), {}, {}, {}, {}});
+    HalveAtEdges(halved, odd[i], looks[i]);
+    parts.push_back({this->PatternOf(facets[i], {0, 0}, halved), {}, {}, {}, {}});
     Part& part = parts.back();
-    this->FindVisible(facet, part);
+    this->FindVisible(facets[i], SeenShares(halved, looks[i]), part);
     const std::vector<std::size_t> columns = BlocksBefore(borders[0], halved[0]);
     for (const std::size_t row : BlocksBefore(borders[1], halved[1]))
     {
@@ -461,8 +479,8 @@ void SignLook::FillFactors(
   const Vec3 direction = way / distance;
   const double depth = scene.Smoke().OpticalDepth(this->Eye_, direction, 0.0, distance);
   const std::size_t cell = facet.Cells[zone.Cell];
-  const double relative =
-    this->Lights_.CellLaw(cell).Relative(-direction, -glm::dot(direction, facet.Normal));
+  const double relative = this->Lights_.CellLaw(facet.Luminous.value_or(cell))
+                            .Relative(-direction, -glm::dot(direction, facet.Normal));
   for (int band = 0; band < this->Bands_; ++band)
   {
     const double share = BandWeight(this->View_, band);
@@ -486,10 +504,11 @@ void SignLook::FillFactors(
   }
 }
 
-void SignLook::FindVisible(const Facet& facet, Part& part)
+void SignLook::FindVisible(const Facet& facet, const std::vector<double>& shares, Part& part)
 {
-  for (const PatternBlock& block : part.Pattern.Blocks())
+  for (std::size_t i = 0; i < part.Pattern.Blocks().size(); ++i)
   {
+    const PatternBlock& block = part.Pattern.Blocks()[i];
     SeenBlock seen{};
     glm::dvec2 middle(0.0);
     if (!block.Places.empty())
@@ -502,7 +521,7 @@ void SignLook::FindVisible(const Facet& facet, Part& part)
       }
       middle /= area;
       const double density = this->DensityOf(facet, this->OnFacet(facet, middle));
-      seen.Density = density * this->VisibleShare(facet, block);
+      seen.Density = density * (shares.empty() ? this->VisibleShare(facet, block) : shares[i]);
       this->All_ += density * block.Sum[0];
       this->Seen_ += seen.Density * block.Sum[0];
     }
@@ -640,12 +659,16 @@ SignMeasurement SignLook::Measure(double cutOff)
   const std::array<int, 2> pixels = this->Pixels();
   const PlateBorders borders = this->Borders();
   std::vector<Part> parts = this->WholeParts(facets, pixels, borders);
-  const bool cut = (this->PartlyHidden() && this->Seen_ > 0.0) ||
-                   std::any_of(facets.begin(), facets.end(),
-                     [this](const Facet& facet) { return this->CornerDiffers(facet); });
-  if (cut && pixels[0] == 0)
+  if (pixels[0] == 0 && facets.size() <= MostCutFacets)
   {
-    parts = this->CutParts(facets, borders);
+    const std::vector<PlateLook> looks = this->Looks(facets);
+    std::vector<std::vector<glm::dvec2>> odd;
+    std::transform(looks.begin(), looks.end(), std::back_inserter(odd), OddPlaces);
+    if ((this->PartlyHidden() && this->Seen_ > 0.0) ||
+        std::any_of(odd.begin(), odd.end(), [](const auto& places) { return !places.empty(); }))
+    {
+      parts = this->CutParts(facets, looks, odd, borders);
+    }
   }
   if (!(this->Seen_ > 0.0))
   {

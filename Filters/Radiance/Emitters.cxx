@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -21,6 +22,49 @@ namespace
 
 /// A light of more leaves is replaced by a lattice.
 constexpr std::size_t MostLeaves = 20;
+
+/// Leaves one of corners that follow each other in one place.
+void DropRepeated(std::vector<Vec3>& vertices)
+{
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  while (vertices.size() > 1 && vertices.back() == vertices.front())
+  {
+    vertices.pop_back();
+  }
+}
+
+/// The first edge of a polygon that is no mere rounding.
+Vec3 FirstEdge(const std::vector<Vec3>& vertices)
+{
+  constexpr double LeastShare = 1e-3;
+  std::vector<Vec3> edges;
+  double longest = 0.0;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    edges.push_back(vertices[(i + 1) % vertices.size()] - vertices[i]);
+    longest = std::max(longest, glm::length(edges.back()));
+  }
+  return *std::find_if(edges.begin(), edges.end(),
+    [&](const Vec3& edge) { return glm::length(edge) >= LeastShare * longest; });
+}
+
+/// Distance of a point from a plane convex polygon with a unit normal [m].
+double DistanceFrom(const std::array<Vec3, 4>& corners, const Vec3& normal, const Vec3& point)
+{
+  const double height = glm::dot(point - corners[0], normal);
+  bool inside = true;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
+    const Vec3 from = point - corners[i];
+    const double square = glm::dot(edge, edge);
+    inside = inside && glm::dot(glm::cross(edge, from), normal) >= 0.0;
+    const double share = square > 0.0 ? std::clamp(glm::dot(from, edge) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::length(from - share * edge));
+  }
+  return inside ? std::abs(height) : least;
+}
 
 void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 {
@@ -92,6 +136,10 @@ double LightGroup::AreaAt(double u, double v) const
 
 double LightGroup::Distance(const Vec3& point) const
 {
+  if (this->FirstChild < 0)
+  {
+    return DistanceFrom(this->Corners, this->Normal, point);
+  }
   const Vec3 u = this->Corners[1] - this->Corners[0];
   const Vec3 v = this->Corners[3] - this->Corners[0];
   const Vec3 from = point - this->Corners[0];
@@ -105,7 +153,8 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
 {
   for (std::size_t index = 0; index < this->Cells_.size(); ++index)
   {
-    const EmitterCell& cell = this->Cells_[index];
+    EmitterCell& cell = this->Cells_[index];
+    DropRepeated(cell.Vertices);
     CheckCell(cell, index, bands);
     const Vec3 area = AreaVector(cell.Vertices);
     this->Areas_.push_back(glm::length(area));
@@ -165,7 +214,7 @@ void EmitterSet::FindSigns()
     const Vec3 first = this->Normals_[sign.Cells.front()];
     sign.Normal = glm::length(sign.Normal) > Rounding * faces ? glm::normalize(sign.Normal) : first;
     const std::vector<Vec3>& vertices = this->Cells_[sign.Cells.front()].Vertices;
-    const Vec3 edge = vertices[1] - vertices[0];
+    const Vec3 edge = FirstEdge(vertices);
     const Vec3 u = glm::normalize(edge - glm::dot(edge, sign.Normal) * sign.Normal);
     const Vec3 v = glm::cross(sign.Normal, u);
     glm::dvec2 low(1e300);
@@ -342,7 +391,10 @@ void EmitterSet::AddDarkLeaves(std::size_t cell, std::vector<LightGroup>& leaves
     if (*std::max_element(luminance.begin(), luminance.begin() + this->Bands_) <= 0.0 &&
         this->InOnePlane(other, cell))
     {
+      const std::size_t first = leaves.size();
       this->AddLeavesOf(other, leaves);
+      std::for_each(
+        leaves.begin() + first, leaves.end(), [](LightGroup& leaf) { leaf.Intensity = {}; });
     }
   }
 }

@@ -76,7 +76,7 @@ struct LightGroup
 
   /// Whether it is plane but for rounding.
   bool Plane() const { return this->Depth <= 1e-3 * this->Radius; }
-  /// Distance of a point from the plane rectangle around the group [m].
+  /// Distance of a point from a leaf, or from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
   /// A place between the corners, and the area for each unit of u and v there [m2].
   Vec3 At(double u, double v) const;
@@ -84,10 +84,10 @@ struct LightGroup
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells
-/// of lamps, that share a plane) form one light, a tree of groups. A pattern of very many cells
-/// lights its surroundings as a lattice of rectangles of the same intensity does. A luminous body
-/// that is large against the scene, such as a wall, is met by random lines often enough to leave it
-/// to them.
+/// of lamps, that share a plane and fill a good part of the rectangle around them) form one light,
+/// a tree of groups. A pattern of very many cells lights its surroundings as a lattice of
+/// rectangles of the same intensity does. A luminous body that is large against the scene, such as
+/// a wall, is met by random lines often enough to leave it to them.
 class EmitterSet
 {
 public:

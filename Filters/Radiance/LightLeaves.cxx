@@ -136,8 +136,7 @@ LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
 void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
   std::vector<LightGroup>& leaves)
 {
-  std::vector<Vec3> vertices = cell.Vertices;
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const std::vector<Vec3>& vertices = cell.Vertices;
   for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
   {
     const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];

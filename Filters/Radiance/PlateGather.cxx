@@ -132,18 +132,20 @@ bool PlateGather::Sunk(const Sign& sign, const Vec3& place) const
 {
   const Vec3 u = glm::normalize(sign.Corners[1] - sign.Corners[0]);
   const Vec3 v = glm::cross(sign.Normal, u);
-  // Slightly askew, so that no ray runs along edges.
+  int backs = 0;
+  // Slightly askew, so that no ray runs along edges. Plates tell nothing.
   for (const Vec3& side : {Vec3(0.0137 * u), Vec3(u + 0.31 * v), Vec3(v - 0.29 * u),
          Vec3(-u - 0.27 * v), Vec3(0.33 * u - v)})
   {
     const Hit hit = this->Scene_.Shapes().Intersect(
       place, glm::normalize(sign.Normal + side), 0.0, std::numeric_limits<double>::infinity());
-    if (!hit.Found() || hit.Emitter || hit.Side == 0)
+    if (!hit.Found() || (!hit.Emitter && hit.Side == 0))
     {
       return false;
     }
+    backs += hit.Emitter ? 0 : 1;
   }
-  return true;
+  return backs > 0;
 }
 
 PlateGather::Result PlateGather::Gather(
@@ -185,7 +187,7 @@ PlateGather::Result PlateGather::Gather(
       const EvenPoints points(key);
       double sum = 0.0;
       int used = 0;
-      for (int ray = 0; ray < rays; ++ray)
+      for (int ray = 0; ray < rays || (used == 0 && ray < MostRays); ++ray)
       {
         const auto random = points.Point(ray);
         const Vec3 place = places.At(random[0], random[1]) + lift;

@@ -48,6 +48,21 @@ Vec3 AreaVector(const std::vector<Vec3>& polygon)
 }
 
 //------------------------------------------------------------------------------
+bool Holds(const FlatPolygon& polygon, const glm::dvec2& point)
+{
+  bool left = true;
+  bool right = true;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const glm::dvec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const glm::dvec2 from = point - polygon[i];
+    const double turn = edge.x * from.y - edge.y * from.x;
+    left = left && turn >= 0.0;
+    right = right && turn <= 0.0;
+  }
+  return left || right;
+}
+
 glm::dvec2 MiddleOf(const FlatPolygon& polygon)
 {
   glm::dvec2 sum(0.0);

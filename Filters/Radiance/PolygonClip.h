@@ -61,6 +61,8 @@ std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box);
 double AreaOf(const FlatPolygon& polygon);
 /// Newell's normal of a plane polygon in space; its length is the area.
 Vec3 AreaVector(const std::vector<Vec3>& polygon);
+/// Whether a point lies in a convex polygon, whichever way that turns.
+bool Holds(const FlatPolygon& polygon, const glm::dvec2& point);
 /// Mean of the corners.
 glm::dvec2 MiddleOf(const FlatPolygon& polygon);
 

@@ -223,6 +223,24 @@ TEST(Emitters, LightsFillTheirRectangles)
   }
 }
 
+// The distance from a triangle is that from its nearest place, whichever corner comes first.
+TEST(Emitters, DistanceFromATriangle)
+{
+  for (int first = 0; first < 3; ++first)
+  {
+    EmitterCell cell;
+    cell.Vertices = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}};
+    std::rotate(cell.Vertices.begin(), cell.Vertices.begin() + first, cell.Vertices.end());
+    cell.Luminance.fill(1.0);
+    const EmitterSet set({cell}, 1, AnySize);
+    const LightGroup& light = set.Root(0);
+    EXPECT_NEAR(light.Distance({3, 0.5, 2}), 2.0, 1e-12) << first;
+    EXPECT_NEAR(light.Distance({5, 0.5, 0}), 1.0, 1e-12) << first;
+    EXPECT_NEAR(light.Distance({0, 1, 0}), 4.0 / std::sqrt(17.0), 1e-12) << first;
+    EXPECT_NEAR(light.Distance({-3, 0, 4}), 5.0, 1e-12) << first;
+  }
+}
+
 // A checkerboard of many cells lights as a lattice with the same intensity, in the same rectangle.
 TEST(Emitters, PatternsOfManyCellsAreCoarsened)
 {

@@ -280,6 +280,31 @@ TEST(OddInput, SignBehindACorner)
   }
 }
 
+// Walls that show their backs to the room reflect as well: a sign that only reflects is as bright.
+TEST(OddInput, ReflectingSignInARoomInsideOut)
+{
+  std::vector<Estimate> values;
+  for (const bool insideOut : {false, true})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.5;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4, 4, 3), {16, 16, 12}, 0.2)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4, 4, 3), 0.5, 0.6);
+    for (auto& triangle : scene.Surfaces.Triangles)
+    {
+      std::swap(triangle[1], triangle[insideOut ? 2 : 1]);
+    }
+    scene.Emitters = {scenes::Plate({2, 1, 2.99}, {0, 0, -1}, {1, 0, 0}, 1.5, 1.5, 500.0),
+      scenes::Plate({2, 3.5, 1.5}, {0, -1, 0}, {0, 0, 1}, 1.0, 0.4, 0.0, 0.8, 0)};
+    const Solved solved(std::move(scene), 0.1);
+    values.push_back(solved.Luminance({{2.0, 1.0, 1.5}, {0, 1, 0}}));
+  }
+  report::Head("Reflecting sign in a room of outward surfaces");
+  report::Relative("luminance [cd/m2]", values[0].Mean, values[1].Mean, 0.01,
+    std::hypot(values[0].StandardError, values[1].StandardError));
+  EXPECT_LT(values[1].StandardError, 0.1 * values[1].Mean);
+}
+
 // Half of a sign that only reflects is sunk into a block: what shows of it is as bright as a sign
 // that ends there, and as the reference integrator has it.
 TEST(OddInput, ReflectingSignHalfInABlock)
