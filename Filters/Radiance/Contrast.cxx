@@ -1,15 +1,12 @@
 #include "Contrast.h"
 
 #include "PixelMoments.h"
-#include "PlateEdges.h"
 #include "PlateVeil.h"
-#include "PolygonClip.h"
+#include "SignFacets.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
-#include <optional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -42,102 +39,6 @@ double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
 double BandWeight(const View& view, int band)
 {
   return view.TheScene().Bands() == 1 ? 1.0 : PhotopicWeights[band];
-}
-
-/// Whether the straight way from the eye ends on that cell's front.
-bool Sees(const View& view, const Vec3& eye, const Vec3& point, std::size_t cell)
-{
-  const Vec3 to = point - eye;
-  const double distance = glm::length(to);
-  const Geometry& shapes = view.TheScene().Shapes();
-  const double reach = 20.0 * shapes.Tolerance() + 1e-5 * distance;
-  const Hit hit = view.FirstHit(eye, to / distance, distance + reach);
-  if (!hit.Found() || !hit.Emitter || hit.Side != 0 || hit.Distance < distance - reach)
-  {
-    return false;
-  }
-  // On the seam between two cells of a sign either may be hit.
-  const std::vector<EmitterCell>& cells = view.TheScene().Lights().Cells();
-  return cells[shapes.Cell(hit)].SignId == cells[cell].SignId;
-}
-
-/// Whether a cell counts as lit: as it says or, where it does not, brighter by itself than half the
-/// brightest of its sign. A sign that only reflects is judged by its reflectance.
-std::vector<bool> LitCells(const View& view, const Sign& sign)
-{
-  const EmitterSet& lights = view.TheScene().Lights();
-  const int bands = view.TheScene().Bands();
-  std::vector<double> brightness(lights.Cells().size(), 0.0);
-  double brightest = 0.0;
-  double darkest = 1e300;
-  for (const bool reflecting : {false, true})
-  {
-    for (const std::size_t cell : sign.Cells)
-    {
-      const EmitterCell& emitter = lights.Cells()[cell];
-      brightness[cell] = Luminance(reflecting ? emitter.Reflectance : emitter.Luminance, bands);
-      brightest = std::max(brightest, brightness[cell]);
-      darkest = std::min(darkest, brightness[cell]);
-    }
-    if (brightest > 0.0)
-    {
-      break;
-    }
-    darkest = 1e300;
-  }
-  std::vector<bool> lit(lights.Cells().size(), false);
-  for (const std::size_t cell : sign.Cells)
-  {
-    const int part = lights.Cells()[cell].Part;
-    lit[cell] = part < 0 ? brightness[cell] > 0.5 * (brightest + darkest) : part == 1;
-  }
-  return lit;
-}
-
-/// A plane part of a sign, with one law of emission.
-struct Facet
-{
-  Vec3 Normal;
-  /// Its cells that face the eye.
-  std::vector<std::size_t> Cells;
-  /// The first one that emits, if any does: it tells the law.
-  std::optional<std::size_t> Luminous;
-};
-
-std::vector<Facet> FacetsOf(const EmitterSet& lights, const Sign& sign, const Vec3& eye)
-{
-  std::vector<Facet> facets;
-  for (const std::size_t cell : sign.Cells)
-  {
-    const Vec3& normal = lights.CellNormal(cell);
-    // Cells seen edge on in the plane of the plate have no extent there.
-    if (glm::dot(eye - lights.CellCentre(cell), normal) <= 0.0 ||
-        std::abs(glm::dot(normal, sign.Normal)) < 1e-3)
-    {
-      continue;
-    }
-    const bool luminous = Luminance(lights.Cells()[cell].Luminance, lights.Bands()) > 0.0;
-    const auto same = [&](const Facet& facet)
-    {
-      const Vec3 between = lights.CellCentre(cell) - lights.CellCentre(facet.Cells.front());
-      return glm::dot(facet.Normal, normal) > 1.0 - 1e-9 &&
-             std::abs(glm::dot(between, normal)) < 1e-5 * sign.Radius &&
-             (!luminous || !facet.Luminous ||
-               lights.CellLaw(cell) == lights.CellLaw(*facet.Luminous));
-    };
-    auto facet = std::find_if(facets.begin(), facets.end(), same);
-    if (facet == facets.end())
-    {
-      facets.push_back({normal, {}, {}});
-      facet = facets.end() - 1;
-    }
-    facet->Cells.push_back(cell);
-    if (luminous && !facet->Luminous)
-    {
-      facet->Luminous = cell;
-    }
-  }
-  return facets;
 }
 
 /// Borders of blocks along an edge: those of the pattern's columns, and more where they are longer
@@ -177,7 +78,7 @@ class SignLook
 public:
   SignLook(const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
       : View_(view), Lights_(view.TheScene().Lights()), Plate_(Lights_.Signs()[sign]), Eye_(eye),
-        Observer_(observer), Bands_(view.TheScene().Bands()), Lit_(LitCells(view, Plate_)),
+        Observer_(observer), Bands_(view.TheScene().Bands()), Lit_(LitCells(Lights_, Plate_)),
         Across_(ColumnsOf(Lights_, Plate_, 0)), Up_(ColumnsOf(Lights_, Plate_, 1))
   {
     this->EdgeU_ = this->Plate_.Corners[1] - this->Plate_.Corners[0];
@@ -218,13 +119,10 @@ private:
   /// The same where something hides a part: blocks are halved there, and stay one zone.
   std::vector<Part> CutParts(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
     const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);
-  /// @param cells of the facet, on the plate
-  PlateSight LookAt(
-    const Facet& facet, const std::vector<FlatPolygon>& cells, const glm::dvec2& place) const;
-  /// A look at each facet; the facets must outlive them.
-  std::vector<PlateLook> Looks(const std::vector<Facet>& facets) const;
-  /// The point of a facet in front of a place on the sign's rectangle.
-  Vec3 OnFacet(const Facet& facet, const glm::dvec2& place) const;
+  Vec3 PointOf(const Facet& facet, const glm::dvec2& place) const
+  {
+    return OnFacet(this->Lights_, this->Plate_, facet, place);
+  }
   /// Share of a block's places that the eye sees.
   double VisibleShare(const Facet& facet, const PatternBlock& block) const;
   double DensityOf(const Facet& facet, const Vec3& point) const;
@@ -333,39 +231,6 @@ std::vector<SignLook::Part> SignLook::WholeParts(
   return parts;
 }
 
-PlateSight SignLook::LookAt(
-  const Facet& facet, const std::vector<FlatPolygon>& cells, const glm::dvec2& place) const
-{
-  if (std::none_of(
-        cells.begin(), cells.end(), [&](const FlatPolygon& cell) { return Holds(cell, place); }))
-  {
-    return PlateSight::Nothing;
-  }
-  return Sees(this->View_, this->Eye_, this->OnFacet(facet, place), facet.Cells.front())
-           ? PlateSight::Seen
-           : PlateSight::Hidden;
-}
-
-std::vector<PlateLook> SignLook::Looks(const std::vector<Facet>& facets) const
-{
-  std::vector<PlateLook> looks;
-  for (const Facet& facet : facets)
-  {
-    std::vector<FlatPolygon> cells;
-    for (const std::size_t cell : facet.Cells)
-    {
-      FlatPolygon& corners = cells.emplace_back();
-      for (const Vec3& vertex : this->Lights_.Cells()[cell].Vertices)
-      {
-        corners.push_back(PlaceOnPlate(this->Plate_, vertex));
-      }
-    }
-    looks.emplace_back([this, &facet, cells = std::move(cells)](const glm::dvec2& place)
-      { return this->LookAt(facet, cells, place); });
-  }
-  return looks;
-}
-
 std::vector<SignLook::Part> SignLook::CutParts(const std::vector<Facet>& facets,
   const std::vector<PlateLook>& looks, const std::vector<std::vector<glm::dvec2>>& odd,
   const PlateBorders& borders)
@@ -392,23 +257,14 @@ std::vector<SignLook::Part> SignLook::CutParts(const std::vector<Facet>& facets,
   return parts;
 }
 
-Vec3 SignLook::OnFacet(const Facet& facet, const glm::dvec2& place) const
-{
-  const Vec3 point = OnPlate(this->Plate_, place.x, place.y);
-  const Vec3 off = this->Lights_.CellCentre(facet.Cells.front()) - point;
-  return point + glm::dot(off, facet.Normal) / glm::dot(this->Plate_.Normal, facet.Normal) *
-                   this->Plate_.Normal;
-}
-
 double SignLook::VisibleShare(const Facet& facet, const PatternBlock& block) const
 {
   double seen = 0.0;
   double all = 0.0;
   for (const PatternPlace& place : block.Places)
   {
-    seen += Sees(this->View_, this->Eye_, this->OnFacet(facet, place.At), facet.Cells[place.Cell])
-              ? place.Area
-              : 0.0;
+    seen += Sees(this->View_, this->Plate_, this->Eye_, this->PointOf(facet, place.At)) ? place.Area
+                                                                                        : 0.0;
     all += place.Area;
   }
   return seen / all;
@@ -472,7 +328,7 @@ void SignLook::FillFactors(const Facet& facet, Part& part)
 void SignLook::FillFactors(
   const Facet& facet, const Zone& zone, bool reflects, Coefficients& factors)
 {
-  const Vec3 point = this->OnFacet(facet, zone.Middle);
+  const Vec3 point = this->PointOf(facet, zone.Middle);
   const Scene& scene = this->View_.TheScene();
   const Vec3 way = point - this->Eye_;
   const double distance = glm::length(way);
@@ -520,7 +376,7 @@ void SignLook::FindVisible(const Facet& facet, const std::vector<double>& shares
         area += place.Area;
       }
       middle /= area;
-      const double density = this->DensityOf(facet, this->OnFacet(facet, middle));
+      const double density = this->DensityOf(facet, this->PointOf(facet, middle));
       seen.Density = density * (shares.empty() ? this->VisibleShare(facet, block) : shares[i]);
       this->All_ += density * block.Sum[0];
       this->Seen_ += seen.Density * block.Sum[0];
@@ -575,7 +431,7 @@ void SignLook::MakeVeils(const std::vector<Facet>& facets, const std::vector<Par
     {
       if (zone.Weight > 0.0)
       {
-        places.push_back(this->OnFacet(facets[i], zone.Middle));
+        places.push_back(this->PointOf(facets[i], zone.Middle));
         weights.push_back(zone.Weight);
       }
     }
@@ -661,9 +517,13 @@ SignMeasurement SignLook::Measure(double cutOff)
   std::vector<Part> parts = this->WholeParts(facets, pixels, borders);
   if (pixels[0] == 0 && facets.size() <= MostCutFacets)
   {
-    const std::vector<PlateLook> looks = this->Looks(facets);
+    std::vector<PlateLook> looks;
     std::vector<std::vector<glm::dvec2>> odd;
-    std::transform(looks.begin(), looks.end(), std::back_inserter(odd), OddPlaces);
+    for (const Facet& facet : facets)
+    {
+      looks.push_back(LookAt(this->View_, this->Plate_, this->Eye_, facet));
+      odd.push_back(OddPlaces(looks.back()));
+    }
     if ((this->PartlyHidden() && this->Seen_ > 0.0) ||
         std::any_of(odd.begin(), odd.end(), [](const auto& places) { return !places.empty(); }))
     {

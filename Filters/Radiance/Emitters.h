@@ -103,6 +103,8 @@ public:
   const Vec3& CellCentre(std::size_t cell) const { return this->Centres_[cell]; }
   double CellArea(std::size_t cell) const { return this->Areas_[cell]; }
   const EmissionLaw& CellLaw(std::size_t cell) const { return this->Laws_[cell]; }
+  /// Whether two cells of a sign lie in one plane, but for the rounding of single precision.
+  bool InOnePlane(std::size_t a, std::size_t b) const;
   /// Signs in the order of their ids.
   const std::vector<Sign>& Signs() const { return this->Signs_; }
   /// Whether the cell's own light is carried by random lines, not by Lights().
@@ -123,8 +125,6 @@ private:
   /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light
   /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
-  /// Whether two cells of a sign lie in one plane, but for the rounding of single precision.
-  bool InOnePlane(std::size_t a, std::size_t b) const;
   void BuildLights(double largestLight);
   void AddLeavesOf(std::size_t cell, std::vector<LightGroup>& leaves) const;
   /// The same of the dark cells on the board of a sign's cell.
