@@ -25,6 +25,9 @@ constexpr double DeepestDepth = 100.0;
 /// counts three times.
 constexpr double LeafRatio = 0.7;
 constexpr int LeafSplits = 12;
+/// The same where light goes as a power of the cosine, which no few points follow close to a leaf:
+/// parts are split down to their distance.
+constexpr int SteepLeafSplits = 66;
 constexpr int SplitInFour = 3;
 constexpr double SlenderRatio = 1.517;
 constexpr double CutRatio = 0.02;
@@ -37,6 +40,11 @@ constexpr double StencilDepth = 1.0;
 constexpr double WaysEdges = 1.0;
 /// Shadow rays along one edge of a light that is partly hidden.
 constexpr int ShadowEdge = 6;
+
+int SplitsOf(const EmissionLaw& law)
+{
+  return law == EmissionLaw() ? LeafSplits : SteepLeafSplits;
+}
 
 LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
 {
@@ -319,6 +327,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
     return;
   }
   const double ratio = group.Radius / glm::length(to);
+  const double steep = ratio * group.Law.LeafSharpness();
   // A leaf that the receiver's horizon cuts is split until the rest does not matter.
   const bool cut = leaf && splits > 0 && receiver.Normal && ratio > CutRatio &&
                    std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
@@ -329,7 +338,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
     this->Scene_.Smoke().MaximumExtinction() * this->Scene_.LargestScale() * group.Radius <
       EvenDepth;
   const bool last = leaf && (splits == 0 || even);
-  if (path == nullptr && (ratio < PathRatio || (leaf && ratio < LeafRatio) || last))
+  if (path == nullptr && (ratio < PathRatio || (leaf && steep < LeafRatio) || last))
   {
     own = this->SamplePath(group, receiver);
     path = &own;
@@ -338,11 +347,11 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   {
     return;
   }
-  if (ratio < (leaf ? LeafPointRatio : PointRatio))
+  if (steep < (leaf ? LeafPointRatio : PointRatio))
   {
     this->AddPoint(group, receiver, *path, sum);
   }
-  else if (leaf && !cut && (ratio < LeafRatio || last))
+  else if (leaf && !cut && (steep < LeafRatio || last))
   {
     this->AddLeaf(group, receiver, *path, sum);
   }
@@ -393,7 +402,7 @@ Spectrum DirectLight::Fluence(std::size_t light, const Receiver& receiver) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   Spectrum sum{};
-  this->Gather(root, receiver, nullptr, LeafSplits, sum);
+  this->Gather(root, receiver, nullptr, SplitsOf(root.Law), sum);
   return sum;
 }
 
@@ -401,7 +410,8 @@ Spectrum DirectLight::Illuminance(
   std::size_t light, const Vec3& point, const Vec3& normal, bool clear) const
 {
   Spectrum sum{};
-  this->Gather(this->Scene_.Lights().Root(light), {point, normal, clear}, nullptr, LeafSplits, sum);
+  const LightGroup& root = this->Scene_.Lights().Root(light);
+  this->Gather(root, {point, normal, clear}, nullptr, SplitsOf(root.Law), sum);
   return sum;
 }
 

@@ -14,6 +14,7 @@ namespace
 
 /// A sharper light would have every cell before it cut to pieces.
 constexpr double MostSharpness = 4.0;
+constexpr double MostLeafSharpness = 12.0;
 
 } // namespace
 
@@ -37,10 +38,20 @@ double EmissionLaw::UnitFlux() const
 
 double EmissionLaw::Sharpness() const
 {
+  return this->SharpnessUpTo(MostSharpness);
+}
+
+double EmissionLaw::LeafSharpness() const
+{
+  return this->SharpnessUpTo(MostLeafSharpness);
+}
+
+double EmissionLaw::SharpnessUpTo(double most) const
+{
   // The steepest slope of cos^m is close to sqrt(m / e).
   const double own = this->Table_ ? this->Table_->Sharpness()
                                   : std::sqrt((this->Exponent_ + 1.0) / glm::e<double>());
-  return std::clamp(own, 1.0, MostSharpness);
+  return std::clamp(own, 1.0, most);
 }
 
 } // namespace smokevis

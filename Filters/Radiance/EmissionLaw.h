@@ -41,8 +41,10 @@ public:
   double UnitFlux() const;
   /// Whether a measured table gives the law.
   bool Measured() const { return this->Table_ != nullptr; }
-  /// How fast the light changes with the angle, at least 1 [1/rad].
+  /// How fast the light changes with the angle, at least 1 [1/rad]; no more than cells are cut for.
   double Sharpness() const;
+  /// The same, no more than leaves of a light are cut for, which costs less.
+  double LeafSharpness() const;
   /// Whether the light of two plates with one normal can be added up.
   bool operator==(const EmissionLaw& other) const
   {
@@ -51,6 +53,9 @@ public:
   }
 
 private:
+  /// At least 1 and at most a number.
+  double SharpnessUpTo(double most) const;
+
   double Exponent_ = 0.0;
   const IntensityTable* Table_ = nullptr;
   Vec3 AxisX_{0.0};

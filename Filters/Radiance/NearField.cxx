@@ -13,10 +13,13 @@ namespace smokevis
 namespace
 {
 
-/// Steps of a level's lattice from the plate to the level's end: of the innermost, which is
-/// interpolated linearly since it follows a pattern, and of others.
+/// Steps of a level's lattice from the plate to the level's end, and as long ones along it: of the
+/// innermost, which is interpolated linearly since it follows a pattern, and of others.
 constexpr int InnermostSteps = 6;
 constexpr int Steps = 5;
+/// Steps of the innermost from the plate to its end, each longer than the one before: in smoke,
+/// light falls off most steeply right at the plate.
+constexpr int GradedSteps = 10;
 /// A level has no more steps than this along one side of the plate.
 constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
@@ -56,8 +59,22 @@ struct NearField::Level
   double Reach = 0.0;
   std::array<double, 3> First{}, Step{};
   std::array<int, 3> Count{};
+  /// Whether distances from the plate go with the square of their number.
+  bool Graded = false;
   /// NaN: not computed yet. Band after band, first axis fastest.
   mutable std::vector<std::atomic<float>> Values;
+
+  double Place(int axis, int node) const
+  {
+    const double even = this->First[axis] + node * this->Step[axis];
+    return axis == 2 && this->Graded ? even * even / this->Reach : even;
+  }
+  /// Number of a place along an axis, whole at nodes.
+  double Number(int axis, double place) const
+  {
+    const double even = axis == 2 && this->Graded ? std::sqrt(place * this->Reach) : place;
+    return (even - this->First[axis]) / this->Step[axis];
+  }
 
   std::size_t Index(const std::array<int, 3>& node, int band) const
   {
@@ -111,10 +128,13 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     }
     auto level = std::make_unique<Level>();
     level->Reach = distance;
+    level->Graded = this->Levels_.empty();
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
-      const int steps = static_cast<int>(std::ceil(2.0 * half / step - Rounding));
+      const int steps = axis == 2 && level->Graded
+                          ? GradedSteps
+                          : static_cast<int>(std::ceil(2.0 * half / step - Rounding));
       level->Count[axis] = steps + 1;
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;
@@ -188,7 +208,7 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
   Vec3 place;
   for (int axis = 0; axis < 3; ++axis)
   {
-    place[axis] = level.First[axis] + node[axis] * level.Step[axis];
+    place[axis] = level.Place(axis, node[axis]);
   }
   place.z = std::max(place.z, Lift * level.Step[2]);
   const Spectrum fluence = this->Direct_.Fluence(this->Light_, this->FromPlate(place), true);
@@ -280,9 +300,11 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
   std::array<double, 3> share;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double at = (place[axis] - level.First[axis]) / level.Step[axis];
-    node[axis] = std::clamp(static_cast<int>(at), 0, level.Count[axis] - 2);
-    share[axis] = std::clamp(at - node[axis], 0.0, 1.0);
+    node[axis] =
+      std::clamp(static_cast<int>(level.Number(axis, place[axis])), 0, level.Count[axis] - 2);
+    const double begin = level.Place(axis, node[axis]);
+    const double end = level.Place(axis, node[axis] + 1);
+    share[axis] = std::clamp((place[axis] - begin) / (end - begin), 0.0, 1.0);
   }
   const double depth = this->EvenDepth(place, band);
   double logarithm = -depth;
@@ -303,7 +325,8 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
   }
   // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
   // smoke exponentially.
-  const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) * level.Step[2];
+  const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) *
+                           (level.Place(2, node[2] + 1) - level.Place(2, node[2]));
   return stepDepth > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm) : sum;
 }
 

@@ -6,6 +6,7 @@
 #include "Scene.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -263,6 +264,80 @@ TEST(NearField, ThickSmokeThatEnds)
       const Vec3 point(x, y, 1.05);
       const double expected = direct.Fluence(0, point, true)[0];
       EXPECT_NEAR(field.Fluence(point, 0), expected, 1e-6 * expected) << x << ' ' << y;
+    }
+  }
+}
+
+/// A lamp of 0.6 m x 1.2 m under z = 3 in even smoke.
+SceneDescription Lamp(double exponent, double extinction)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.9;
+  SmokeGrid grid;
+  for (int i = 0; i <= 16; ++i)
+  {
+    grid.Nodes[0].push_back(0.25 * i);
+    grid.Nodes[1].push_back(0.25 * i);
+    grid.Nodes[2].push_back(3.0 / 16 * i);
+  }
+  grid.Extinction.assign(16 * 16 * 16, static_cast<float>(extinction));
+  scene.Grids = {grid};
+  EmitterCell cell;
+  cell.Vertices = {{1.7, 1.4, 3}, {1.7, 2.6, 3}, {2.3, 2.6, 3}, {2.3, 1.4, 3}};
+  cell.Luminance.fill(1000.0);
+  cell.Exponent = exponent;
+  scene.Emitters = {cell};
+  return scene;
+}
+
+// Right before the middle of a plate its fluence is 2 pi L / (n + 1), farther off what a sum over
+// 400 x 400 places of the plate gives; beams far sharper than the plate is wide among them.
+TEST(DirectLight, SteepLawsCloseToThePlate)
+{
+  for (const double exponent : {0.0, 1.0, 3.0, 8.0, 16.0, 50.0})
+  {
+    const Scene scene(Lamp(exponent, 0.0));
+    const DirectLight direct(scene);
+    for (const double height : {1e-6, 1e-5, 1e-4, 1e-3})
+    {
+      const double closed = 2000.0 * std::acos(-1.0) / (exponent + 1.0);
+      EXPECT_NEAR(direct.Fluence(0, {2, 2, 3 - height})[0] / closed, 1.0, 0.006)
+        << exponent << ' ' << height;
+    }
+    for (const double height : {0.05, 0.15, 0.45, 0.6, 0.9, 1.5})
+    {
+      const Vec3 point(2.1, 1.8, 3 - height);
+      constexpr int Steps = 400;
+      double sum = 0.0;
+      for (int i = 0; i < Steps * Steps; ++i)
+      {
+        const Vec3 to =
+          Vec3(1.7 + 0.6 * (i % Steps + 0.5) / Steps, 1.4 + 1.2 * (i / Steps + 0.5) / Steps, 3.0) -
+          point;
+        const double distance = glm::length(to);
+        sum += 1000.0 * 0.72 / (Steps * Steps) * std::pow(to.z / distance, exponent + 1.0) /
+               (distance * distance);
+      }
+      EXPECT_NEAR(direct.Fluence(0, point)[0] / sum, 1.0, 0.006) << exponent << ' ' << height;
+    }
+  }
+}
+
+// In smoke a plate's light falls off most steeply right before it: the lattice follows to 5 %
+// where the plate is more than two mean free paths wide, to 2 % where it is one.
+TEST(DirectField, ThickSmokeBeforeALamp)
+{
+  for (const auto& [extinction, exponent, tolerance] :
+    {std::tuple{4.0, 0.0, 0.055}, {1.0, 0.0, 0.015}, {4.0, 1.0, 0.055}, {1.0, 3.0, 0.02}})
+  {
+    const Scene scene(Lamp(exponent, extinction));
+    const DirectLight direct(scene);
+    const NearField near(scene, direct, 0, 1.0);
+    for (const double height : {0.005, 0.01, 0.025, 0.05, 0.1, 0.15})
+    {
+      const Vec3 point(2.03, 1.9, 3 - height);
+      EXPECT_NEAR(near.Fluence(point, 0) / direct.Fluence(0, point)[0], 1.0, tolerance)
+        << extinction << ' ' << exponent << ' ' << height;
     }
   }
 }
