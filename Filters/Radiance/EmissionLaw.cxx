@@ -12,7 +12,8 @@ namespace smokevis
 namespace
 {
 
-/// A sharper light would have every cell before it cut to pieces.
+/// A sharper light would have every cell before it cut to pieces, and the leaves of the light for
+/// each place.
 constexpr double MostSharpness = 4.0;
 constexpr double MostLeafSharpness = 12.0;
 
