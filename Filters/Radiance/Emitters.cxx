@@ -438,26 +438,11 @@ void EmitterSet::FillGroup(
       all.Depth = std::max(all.Depth, glm::dot(all.Centre - corner, all.Normal));
     }
   }
-  // The rectangle around the group, along the first leaf's first edge.
-  const Vec3 u = glm::normalize(leaves[begin].Corners[1] - leaves[begin].Corners[0]);
-  const Vec3 v = glm::cross(all.Normal, u);
-  glm::dvec2 least(1e300);
-  glm::dvec2 most(-1e300);
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    for (const Vec3& corner : leaves[i].Corners)
-    {
-      const glm::dvec2 at(glm::dot(corner - all.Centre, u), glm::dot(corner - all.Centre, v));
-      least = glm::min(least, at);
-      most = glm::max(most, at);
-    }
-  }
-  all.Corners = {all.Centre + least.x * u + least.y * v, all.Centre + most.x * u + least.y * v,
-    all.Centre + most.x * u + most.y * v, all.Centre + least.x * u + most.y * v};
+  const std::span<const LightGroup> own = std::span(leaves).subspan(begin, end - begin);
+  all.Corners = RectangleAround(own, all.Centre);
   if (!all.Law.Measured() && all.Plane())
   {
-    all.Stencil = std::make_shared<PlateStencil>(
-      all.Corners, std::span(leaves).subspan(begin, end - begin), this->Bands_);
+    all.Stencil = std::make_shared<PlateStencil>(all.Corners, own, this->Bands_);
   }
   const Vec3 extent = high - low;
   const int axis =

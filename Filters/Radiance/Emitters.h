@@ -74,7 +74,7 @@ struct LightGroup
   /// What stands for the leaves of a plane group with a smooth law; a leaf has none.
   std::shared_ptr<const PlateStencil> Stencil;
 
-  /// Whether it is plane but for rounding.
+  /// Whether it is plane but for the rounding of single precision.
   bool Plane() const { return this->Depth <= 1e-3 * this->Radius; }
   /// Distance of a point from a leaf, or from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;

@@ -361,4 +361,19 @@ bool Geometry::Visible(const Vec3& from, const Vec3& to) const
   return !this->Occluded(from, (to - from) / length, gap, length - gap);
 }
 
+bool Geometry::SeesBacks(const Vec3& point, std::span<const Vec3> directions) const
+{
+  bool backs = false;
+  for (const Vec3& direction : directions)
+  {
+    const Hit hit = this->Intersect(point, direction, 0.0, std::numeric_limits<double>::infinity());
+    if (!hit.Found() || (!hit.Emitter && hit.Side == 0))
+    {
+      return false;
+    }
+    backs = backs || !hit.Emitter;
+  }
+  return backs;
+}
+
 } // namespace smokevis

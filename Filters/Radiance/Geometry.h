@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 struct RTCDeviceTy;
@@ -120,6 +121,9 @@ public:
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Whether the straight line between two points is clear but for what touches its ends.
   bool Visible(const Vec3& from, const Vec3& to) const;
+  /// Whether rays into these directions, unit vectors, meet backs of surfaces alone, as they do
+  /// within a solid. Plates tell nothing.
+  bool SeesBacks(const Vec3& point, std::span<const Vec3> directions) const;
 
 private:
   const TriangleTree& TreeOf(const Hit& hit) const

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace smokevis
 {
@@ -23,12 +24,12 @@ constexpr int Halvings = 2;
 /// it.
 constexpr std::array<double, Halvings> FullShares = {0.75, 0.95};
 
-/// Rectangles in the plane of a light, with edges along the first edge of a leaf.
+/// The plane of a light, with axes along the first edge of a leaf and across it.
 class Plane
 {
 public:
-  explicit Plane(const LightGroup& leaf)
-      : Origin_(leaf.Corners[0]), U_(glm::normalize(leaf.Corners[1] - leaf.Corners[0])),
+  Plane(const LightGroup& leaf, const Vec3& origin)
+      : Origin_(origin), U_(glm::normalize(leaf.Corners[1] - leaf.Corners[0])),
         V_(glm::cross(leaf.Normal, U_))
   {
   }
@@ -46,11 +47,20 @@ private:
   Vec3 Origin_, U_, V_;
 };
 
+/// The rectangle around leaves.
 struct Rectangle
 {
   glm::dvec2 Low{1e300};
   glm::dvec2 High{-1e300};
 
+  Rectangle() = default;
+  Rectangle(const Plane& plane, std::span<const LightGroup> leaves)
+  {
+    for (const LightGroup& leaf : leaves)
+    {
+      this->Add(plane, leaf);
+    }
+  }
   void Add(const Plane& plane, const LightGroup& leaf)
   {
     for (const Vec3& corner : leaf.Corners)
@@ -149,6 +159,14 @@ void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& l
   }
 }
 
+std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through)
+{
+  const Plane plane(leaves.front(), through);
+  const auto [low, high] = Rectangle(plane, leaves);
+  return {plane.Point(low), plane.Point({high.x, low.y}), plane.Point(high),
+    plane.Point({low.x, high.y})};
+}
+
 std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
 {
   std::vector<std::vector<LightGroup>> parts;
@@ -158,14 +176,10 @@ std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
   {
     std::vector<LightGroup> part = std::move(open.back());
     open.pop_back();
-    const Plane plane(part.front());
-    Rectangle around;
-    double area = 0.0;
-    for (const LightGroup& leaf : part)
-    {
-      around.Add(plane, leaf);
-      area += leaf.Area;
-    }
+    const Plane plane(part.front(), part.front().Centre);
+    const Rectangle around(plane, part);
+    const double area = std::accumulate(part.begin(), part.end(), 0.0,
+      [](double sum, const LightGroup& leaf) { return sum + leaf.Area; });
     if (part.size() == 1 || area >= LeastFilled * around.Area())
     {
       parts.push_back(std::move(part));
@@ -183,12 +197,8 @@ std::vector<LightGroup> Coarsened(
   const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark)
 {
   const LightGroup& first = leaves.front();
-  const Plane plane(first);
-  Rectangle around;
-  for (const LightGroup& leaf : leaves)
-  {
-    around.Add(plane, leaf);
-  }
+  const Plane plane(first, first.Centre);
+  const Rectangle around(plane, leaves);
   const glm::dvec2 size = around.Size();
   std::vector<PatternCell> cells;
   for (const auto* const group : {&leaves, &dark})

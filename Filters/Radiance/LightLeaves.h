@@ -4,6 +4,7 @@
 #include "Emitters.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace smokevis
@@ -16,6 +17,10 @@ LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
 /// A polygon's leaves; corners in one line span nothing and make none.
 void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
   std::vector<LightGroup>& leaves);
+
+/// Corners of the rectangle around leaves, in the plane through a point, along the first leaf's
+/// first edge.
+std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through);
 
 /// Divides leaves of one plane so that each group fills a quarter at least of the rectangle around
 /// it: what is worked out of a light from afar takes it for such a rectangle.

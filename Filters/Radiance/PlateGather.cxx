@@ -7,8 +7,8 @@
 #include "Triangle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -132,20 +132,14 @@ bool PlateGather::Sunk(const Sign& sign, const Vec3& place) const
 {
   const Vec3 u = glm::normalize(sign.Corners[1] - sign.Corners[0]);
   const Vec3 v = glm::cross(sign.Normal, u);
-  int backs = 0;
-  // Slightly askew, so that no ray runs along edges. Plates tell nothing.
-  for (const Vec3& side : {Vec3(0.0137 * u), Vec3(u + 0.31 * v), Vec3(v - 0.29 * u),
-         Vec3(-u - 0.27 * v), Vec3(0.33 * u - v)})
+  // Slightly askew, so that no ray runs along edges.
+  std::array<Vec3, 5> directions = {
+    0.0137 * u, u + 0.31 * v, v - 0.29 * u, -u - 0.27 * v, 0.33 * u - v};
+  for (Vec3& direction : directions)
   {
-    const Hit hit = this->Scene_.Shapes().Intersect(
-      place, glm::normalize(sign.Normal + side), 0.0, std::numeric_limits<double>::infinity());
-    if (!hit.Found() || (!hit.Emitter && hit.Side == 0))
-    {
-      return false;
-    }
-    backs += hit.Emitter ? 0 : 1;
+    direction = glm::normalize(sign.Normal + direction);
   }
-  return backs > 0;
+  return this->Scene_.Shapes().SeesBacks(place, directions);
 }
 
 PlateGather::Result PlateGather::Gather(

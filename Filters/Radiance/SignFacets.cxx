@@ -1,7 +1,7 @@
 #include "SignFacets.h"
 
-#include "PlateVeil.h"
 #include "PolygonClip.h"
+#include "PlateColumns.h"
 
 #include <algorithm>
 #include <cmath>

@@ -264,6 +264,7 @@ bool View::InsideSolid(const Vec3& point) const
     }
   }
   // All faces and corners of a cube around the point: a solid shows its inside everywhere.
+  std::vector<Vec3> directions;
   for (int x = -1; x <= 1; ++x)
   {
     for (int y = -1; y <= 1; ++y)
@@ -271,21 +272,15 @@ bool View::InsideSolid(const Vec3& point) const
       for (int z = -1; z <= 1; ++z)
       {
         const int odd = std::abs(x) + std::abs(y) + std::abs(z);
-        if (odd != 1 && odd != 3)
+        if (odd == 1 || odd == 3)
         {
-          continue;
-        }
-        // Slightly askew, so that no ray runs along the edges of the solid.
-        const Vec3 direction = glm::normalize(Vec3(x + 0.0137, y + 0.0071, z - 0.0093));
-        const Hit hit = this->FirstHit(point, direction);
-        if (!hit.Found() || hit.Emitter || hit.Side == 0)
-        {
-          return false;
+          // Slightly askew, so that no ray runs along the edges of the solid.
+          directions.push_back(glm::normalize(Vec3(x + 0.0137, y + 0.0071, z - 0.0093)));
         }
       }
     }
   }
-  return true;
+  return this->Scene_->Shapes().SeesBacks(point, directions);
 }
 
 } // namespace smokevis

@@ -1,0 +1,83 @@
+#include "PlateColumns.h"
+
+#include "GaussNodes.h"
+
+#include <algorithm>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Columns of a sign's pattern that are told apart; a finer pattern glows as one.
+constexpr std::size_t MostColumns = 16;
+
+std::vector<double> BordersOf(const EmitterSet& lights, const Sign& sign, int edge)
+{
+  std::vector<double> borders;
+  for (const std::size_t cell : sign.Cells)
+  {
+    for (const Vec3& vertex : lights.Cells()[cell].Vertices)
+    {
+      borders.push_back(PlaceOnPlate(sign, vertex)[edge]);
+    }
+  }
+  return borders;
+}
+
+} // namespace
+
+PlateColumns::PlateColumns(std::vector<double> borders)
+{
+  std::sort(borders.begin(), borders.end());
+  for (const double border : borders)
+  {
+    if (this->Ends.empty() || border - this->Ends.back() > 1e-6)
+    {
+      this->Ends.push_back(border);
+    }
+  }
+  if (this->Ends.size() > MostColumns + 1)
+  {
+    this->Ends = {0.0, 1.0};
+  }
+  this->Widest = 0.0;
+  for (std::size_t i = 1; i < this->Ends.size(); ++i)
+  {
+    this->Widest = std::max(this->Widest, this->Ends[i] - this->Ends[i - 1]);
+  }
+}
+
+PlateColumns::PlateColumns(const EmitterSet& lights, const Sign& sign, int edge)
+    : PlateColumns(BordersOf(lights, sign, edge))
+{
+}
+
+std::size_t PlateColumns::Of(double t) const
+{
+  return std::upper_bound(this->Ends.begin() + 1, this->Ends.end() - 1, t) -
+         (this->Ends.begin() + 1);
+}
+
+double PlateColumns::Node(std::size_t column, int index) const
+{
+  const double width = this->Ends[column + 1] - this->Ends[column];
+  return this->Ends[column] + width * Nodes2[index];
+}
+
+Vec3 OnPlate(const Sign& sign, double u, double v)
+{
+  return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +
+         v * (sign.Corners[3] - sign.Corners[0]);
+}
+
+glm::dvec2 PlaceOnPlate(const Sign& sign, const Vec3& point)
+{
+  const Vec3 u = sign.Corners[1] - sign.Corners[0];
+  const Vec3 v = sign.Corners[3] - sign.Corners[0];
+  const Vec3 from = point - sign.Corners[0];
+  return {glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v)};
+}
+
+} // namespace smokevis

@@ -1,0 +1,269 @@
+#include "SignSight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Blocks of the plate along its longer side, at least.
+constexpr double BlocksAcross = 8.0;
+/// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
+constexpr int MostPixels = 512;
+/// Signs of more facets are not cut at edges: their facets are small.
+constexpr std::size_t MostCutFacets = 8;
+
+/// Angle that the segment between two points spans at the eye [rad].
+double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
+{
+  const Vec3 p = a - eye;
+  const Vec3 q = b - eye;
+  return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q));
+}
+
+/// Borders of blocks along an edge: those of the pattern's columns, and more where they are longer
+/// than `largest`.
+std::vector<double> BlockBorders(const PlateColumns& columns, double largest)
+{
+  std::vector<double> borders = {0.0};
+  for (std::size_t column = 0; column < columns.Count(); ++column)
+  {
+    const double from = borders.back();
+    const double to = column + 1 == columns.Count() ? 1.0 : columns.Ends[column + 1];
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / largest - 1e-9)));
+    for (int part = 1; part <= parts; ++part)
+    {
+      borders.push_back(part == parts ? to : from + (to - from) * part / parts);
+    }
+  }
+  return borders;
+}
+
+/// Middle of what there is of a block.
+glm::dvec2 MiddleOf(const PatternBlock& block)
+{
+  glm::dvec2 middle(0.0);
+  double area = 0.0;
+  for (const PatternPlace& place : block.Places)
+  {
+    middle += place.Area * place.At;
+    area += place.Area;
+  }
+  return middle / area;
+}
+
+} // namespace
+
+SignSight::SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity)
+    : View_(view), Lights_(view.TheScene().Lights()), Plate_(sign), Eye_(eye),
+      Across_(Lights_, sign, 0), Up_(Lights_, sign, 1), EdgeU_(sign.Corners[1] - sign.Corners[0]),
+      EdgeV_(sign.Corners[3] - sign.Corners[0]), Lit_(LitCells(Lights_, sign))
+{
+  const std::vector<Facet> facets = FacetsOf(this->Lights_, sign, eye);
+  const std::array<int, 2> pixels = this->Pixels(acuity);
+  const PlateBorders borders = this->Borders();
+  this->AddWhole(facets, pixels, borders);
+  if (pixels[0] != 0 || facets.size() > MostCutFacets)
+  {
+    return;
+  }
+  std::vector<PlateLook> looks;
+  std::vector<std::vector<glm::dvec2>> odd;
+  bool hidden = this->PartlyHidden() && this->Seen_ > 0.0;
+  for (const Facet& facet : facets)
+  {
+    looks.push_back(LookAt(view, sign, eye, facet));
+    odd.push_back(OddPlaces(looks.back()));
+    hidden = hidden || !odd.back().empty();
+  }
+  if (hidden)
+  {
+    this->Parts_.clear();
+    this->Places_.clear();
+    this->All_ = 0.0;
+    this->Seen_ = 0.0;
+    this->AddCut(facets, looks, odd, borders);
+  }
+}
+
+/// Pixels of the observer's image along both edges; none where all detail is resolved.
+std::array<int, 2> SignSight::Pixels(double acuity) const
+{
+  double narrowest = 1e300;
+  for (const std::size_t cell : this->Plate_.Cells)
+  {
+    const std::vector<Vec3>& vertices = this->Lights_.Cells()[cell].Vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      narrowest =
+        std::min(narrowest, Angle(this->Eye_, vertices[i], vertices[(i + 1) % vertices.size()]));
+    }
+  }
+  const double wide =
+    Angle(this->Eye_, OnPlate(this->Plate_, 0.0, 0.5), OnPlate(this->Plate_, 1.0, 0.5)) / acuity;
+  const double high =
+    Angle(this->Eye_, OnPlate(this->Plate_, 0.5, 0.0), OnPlate(this->Plate_, 0.5, 1.0)) / acuity;
+  if (narrowest >= acuity || std::max(wide, high) > MostPixels)
+  {
+    return {0, 0};
+  }
+  return {std::max(1, static_cast<int>(wide)), std::max(1, static_cast<int>(high))};
+}
+
+PlateBorders SignSight::Borders() const
+{
+  const double width = glm::length(this->EdgeU_);
+  const double height = glm::length(this->EdgeV_);
+  const double largest = std::max(width, height) / BlocksAcross;
+  return {BlockBorders(this->Across_, largest / width), BlockBorders(this->Up_, largest / height)};
+}
+
+PlatePattern SignSight::PatternOf(
+  const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const
+{
+  std::vector<PatternCell> cells;
+  for (const std::size_t index : facet.Cells)
+  {
+    const EmitterCell& emitter = this->Lights_.Cells()[index];
+    PatternCell cell;
+    for (const Vec3& vertex : emitter.Vertices)
+    {
+      cell.Corners.push_back(PlaceOnPlate(this->Plate_, vertex));
+    }
+    cell.Value[0] = 1.0;
+    for (int band = 0; band < this->Lights_.Bands(); ++band)
+    {
+      cell.Value[1 + band] = emitter.Luminance[band];
+      cell.Value[1 + MaxBands + band] = emitter.Reflectance[band];
+    }
+    cell.Lit = this->Lit_[index];
+    cells.push_back(std::move(cell));
+  }
+  return {cells, PatternAxis(borders[0], pixels[0]), PatternAxis(borders[1], pixels[1])};
+}
+
+void SignSight::AddWhole(
+  const std::vector<Facet>& facets, const std::array<int, 2>& pixels, const PlateBorders& borders)
+{
+  for (const Facet& facet : facets)
+  {
+    PlatePattern pattern = this->PatternOf(facet, pixels, borders);
+    std::vector<double> shares;
+    for (const PatternBlock& block : pattern.Blocks())
+    {
+      shares.push_back(this->VisibleShare(facet, block));
+    }
+    std::vector<std::size_t> zoneOf(pattern.Blocks().size());
+    std::iota(zoneOf.begin(), zoneOf.end(), std::size_t{0});
+    this->AddPart(facet, std::move(pattern), shares, zoneOf);
+  }
+}
+
+void SignSight::AddCut(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
+  const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders)
+{
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    PlateBorders halved = borders;
+    HalveAtEdges(halved, odd[i], looks[i]);
+    const std::vector<std::size_t> columns = BlocksBefore(borders[0], halved[0]);
+    std::vector<std::size_t> zoneOf;
+    for (const std::size_t row : BlocksBefore(borders[1], halved[1]))
+    {
+      for (const std::size_t column : columns)
+      {
+        zoneOf.push_back(column + row * (borders[0].size() - 1));
+      }
+    }
+    PlatePattern pattern = this->PatternOf(facets[i], {0, 0}, halved);
+    this->AddPart(facets[i], std::move(pattern), SeenShares(halved, looks[i]), zoneOf);
+  }
+}
+
+void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
+  const std::vector<std::size_t>& zoneOf)
+{
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  Part part{facet, std::move(pattern), {}, {}, {}};
+  std::vector<std::size_t> numbers(1 + *std::max_element(zoneOf.begin(), zoneOf.end()), none);
+  std::vector<double> largest;
+  for (std::size_t i = 0; i < zoneOf.size(); ++i)
+  {
+    const PatternBlock& block = part.Pattern.Blocks()[i];
+    part.Densities.push_back(0.0);
+    part.ZoneOf.push_back(0);
+    if (block.Places.empty())
+    {
+      continue;
+    }
+    const glm::dvec2 middle = MiddleOf(block);
+    const double density = this->DensityOf(part.Front, this->PointOf(part.Front, middle));
+    const double weight = density * shares[i] * block.Sum[0];
+    this->All_ += density * block.Sum[0];
+    if (!(weight > 0.0))
+    {
+      continue;
+    }
+    this->Seen_ += weight;
+    part.Densities.back() = density * shares[i];
+    std::size_t& number = numbers[zoneOf[i]];
+    if (number == none)
+    {
+      number = part.Zones.size();
+      part.Zones.push_back({this->Places_.size()});
+      this->Places_.emplace_back();
+      largest.push_back(0.0);
+    }
+    part.ZoneOf.back() = number;
+    Zone& zone = part.Zones[number];
+    SeenPlace& place = this->Places_[zone.Place];
+    place.Weight += weight;
+    place.OnPlate += weight / place.Weight * (middle - place.OnPlate);
+    zone.Reflects =
+      zone.Reflects || *std::max_element(block.Sum.begin() + 1 + MaxBands, block.Sum.end()) > 0.0;
+    if (weight > largest[number])
+    {
+      largest[number] = weight;
+      zone.Cell = part.Front.Cells[block.Places.front().Cell];
+    }
+  }
+  for (const Zone& zone : part.Zones)
+  {
+    SeenPlace& place = this->Places_[zone.Place];
+    place.Point = this->PointOf(part.Front, place.OnPlate);
+  }
+  this->Parts_.push_back(std::move(part));
+}
+
+double SignSight::VisibleShare(const Facet& facet, const PatternBlock& block) const
+{
+  double seen = 0.0;
+  double all = 0.0;
+  for (const PatternPlace& place : block.Places)
+  {
+    const bool sees = Sees(this->View_, this->Plate_, this->Eye_, this->PointOf(facet, place.At));
+    seen += sees ? place.Area : 0.0;
+    all += place.Area;
+  }
+  return all > 0.0 ? seen / all : 0.0;
+}
+
+double SignSight::DensityOf(const Facet& facet, const Vec3& point) const
+{
+  const Vec3 to = this->Eye_ - point;
+  const double square = glm::dot(to, to);
+  const double area = glm::length(glm::cross(this->EdgeU_, this->EdgeV_)) /
+                      std::abs(glm::dot(this->Plate_.Normal, facet.Normal));
+  return std::max(0.0, area * glm::dot(to, facet.Normal) / (square * std::sqrt(square)));
+}
+
+Vec3 SignSight::PointOf(const Facet& facet, const glm::dvec2& place) const
+{
+  return OnFacet(this->Lights_, this->Plate_, facet, place);
+}
+
+} // namespace smokevis

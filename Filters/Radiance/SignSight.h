@@ -1,0 +1,91 @@
+// What an eye sees of a sign: its plane parts, in blocks that each show whole or in part.
+#pragma once
+
+#include "PlateColumns.h"
+#include "PlateEdges.h"
+#include "PlatePattern.h"
+#include "SignFacets.h"
+#include "SignVeil.h"
+
+#include <vector>
+
+namespace smokevis
+{
+
+/// What is seen of a sign through clear air. Blocks are an eighth of the plate's longer side at
+/// most and follow the pattern's columns and rows. Where something hides a part of the sign, they
+/// are halved along its edges (PlateEdges.h).
+class SignSight
+{
+public:
+  /// Blocks that light arrives from alike, of which something is seen.
+  struct Zone
+  {
+    /// Among Places().
+    std::size_t Place = 0;
+    /// An emitter cell that it shows.
+    std::size_t Cell = 0;
+    /// Whether any cell in it reflects.
+    bool Reflects = false;
+  };
+  /// A plane part of the sign.
+  struct Part
+  {
+    Facet Front;
+    PlatePattern Pattern;
+    /// Solid angle of a unit of the pattern's area in each block, of what is not hidden.
+    std::vector<double> Densities;
+    /// The zone of each block; of blocks of which nothing is seen, any.
+    std::vector<std::size_t> ZoneOf;
+    std::vector<Zone> Zones;
+  };
+
+  SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity);
+
+  const std::vector<Part>& Parts() const { return this->Parts_; }
+  /// Of all zones of all parts.
+  const std::vector<SeenPlace>& Places() const { return this->Places_; }
+  /// Columns and rows of the pattern.
+  const PlateColumns& Across() const { return this->Across_; }
+  const PlateColumns& Up() const { return this->Up_; }
+  /// Solid angle of what is seen, and its share of what faces the eye.
+  double Seen() const { return this->Seen_; }
+  double VisibleFraction() const { return this->Seen_ / this->All_; }
+  /// Whether something hides a part of what faces the eye.
+  bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
+
+private:
+  PlateBorders Borders() const;
+  std::array<int, 2> Pixels(double acuity) const;
+  PlatePattern PatternOf(
+    const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const;
+  /// Takes in facets in whole blocks, a zone each.
+  void AddWhole(const std::vector<Facet>& facets, const std::array<int, 2>& pixels,
+    const PlateBorders& borders);
+  /// Takes them in where something hides a part; blocks that were one stay one zone.
+  void AddCut(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
+    const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);
+  /// @param shares of the blocks that are seen
+  /// @param zoneOf each block, from 0 on
+  void AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
+    const std::vector<std::size_t>& zoneOf);
+  /// Share of a block's places that the eye sees.
+  double VisibleShare(const Facet& facet, const PatternBlock& block) const;
+  double DensityOf(const Facet& facet, const Vec3& point) const;
+  Vec3 PointOf(const Facet& facet, const glm::dvec2& place) const;
+
+  const View& View_;
+  const EmitterSet& Lights_;
+  const Sign& Plate_;
+  const Vec3& Eye_;
+  PlateColumns Across_, Up_;
+  Vec3 EdgeU_, EdgeV_;
+  std::vector<bool> Lit_;
+  std::vector<Part> Parts_;
+  std::vector<SeenPlace> Places_;
+  /// Solid angle of all that faces the eye, and of what it sees of that.
+  double All_ = 0.0;
+  double Seen_ = 0.0;
+};
+
+} // namespace smokevis

@@ -1,0 +1,135 @@
+#include "SignVeil.h"
+
+#include "GaussNodes.h"
+
+#include <numeric>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Errors of sixteen batches are known to a fifth: what is gathered is clearly better where its
+/// error is below this share of the other.
+constexpr double BetterShare = 0.7;
+
+} // namespace
+
+std::size_t SignVeil::Gather()
+{
+  std::vector<SightLine> lines;
+  Lanes known;
+  for (const Way& way : this->Ways_)
+  {
+    lines.push_back(way.Line);
+    Add(known, way.Light.VeilMultiple, static_cast<float>(way.Line.Weight));
+  }
+  const GatheredVeil gathered = this->View_.GatherVeil(this->Eye_, lines, this->Band_);
+  if (StandardError(gathered.Multiple) < BetterShare * StandardError(known))
+  {
+    for (Way& way : this->Ways_)
+    {
+      Add(way.Light.VeilMultiple, gathered.Multiple, 1.0F);
+      Add(way.Light.VeilMultiple, known, -1.0F);
+    }
+  }
+  return gathered.Rays;
+}
+
+PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
+  const std::vector<SeenPlace>& places, const Sign& sign, const PlateColumns& columns,
+  const PlateColumns& rows)
+    : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
+{
+  // The pattern blurs over a distance of about its period.
+  const double reach =
+    2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+            rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec3 to = OnPlate(sign, Nodes3[i], Nodes3[j]) - eye;
+      const double distance = glm::length(to);
+      const double end = std::max(0.0, distance - reach);
+      this->Ways_.push_back(
+        {{to / distance, end, Weights3[i] * Weights3[j]}, this->Trace(to / distance, 0.0, end)});
+    }
+  }
+  this->Near_.resize(columns.Count() * rows.Count());
+  for (std::size_t row = 0; row < rows.Count(); ++row)
+  {
+    for (std::size_t column = 0; column < columns.Count(); ++column)
+    {
+      Lanes& mean = this->Near_[row * columns.Count() + column];
+      for (const int j : {0, 1})
+      {
+        for (const int i : {0, 1})
+        {
+          const Vec3 to = OnPlate(sign, columns.Node(column, i), rows.Node(row, j)) - eye;
+          const double distance = glm::length(to);
+          const RayLight light =
+            this->Trace(to / distance, std::max(0.0, distance - reach), distance);
+          for (int batch = 0; batch < Batches; ++batch)
+          {
+            mean[batch] +=
+              0.25F * (static_cast<float>(light.VeilDirect) + light.VeilMultiple[batch]);
+          }
+        }
+      }
+    }
+  }
+}
+
+Lanes PlateVeil::At(std::size_t place) const
+{
+  const glm::dvec2& at = this->Places_[place].OnPlate;
+  const auto u = QuadraticWeights(at.x);
+  const auto v = QuadraticWeights(at.y);
+  Lanes veil = this->Near_[this->Rows_.Of(at.y) * this->Columns_.Count() + this->Columns_.Of(at.x)];
+  double steady = 0.0;
+  for (int j = 0; j < 3; ++j)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const double share = u[i] * v[j];
+      const RayLight& light = this->Ways_[3 * j + i].Light;
+      steady += share * light.VeilDirect;
+      Add(veil, light.VeilMultiple, static_cast<float>(share));
+    }
+  }
+  for (float& value : veil.Value)
+  {
+    value += static_cast<float>(steady);
+  }
+  return veil;
+}
+
+ShownVeil::ShownVeil(
+  const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places)
+    : SignVeil(view, eye, band, places)
+{
+  const double all = std::accumulate(places.begin(), places.end(), 0.0,
+    [](double sum, const SeenPlace& place) { return sum + place.Weight; });
+  for (const SeenPlace& place : places)
+  {
+    const Vec3 to = place.Point - eye;
+    const double distance = glm::length(to);
+    this->Ways_.push_back(
+      {{to / distance, distance, place.Weight / all}, this->Trace(to / distance, 0.0, distance)});
+  }
+}
+
+Lanes ShownVeil::At(std::size_t place) const
+{
+  const RayLight& light = this->Ways_[place].Light;
+  Lanes veil = light.VeilMultiple;
+  for (float& value : veil.Value)
+  {
+    value += static_cast<float>(light.VeilDirect);
+  }
+  return veil;
+}
+
+} // namespace smokevis

@@ -1,0 +1,92 @@
+// Light that the smoke between an eye and a sign's plate adds.
+#pragma once
+
+#include "PlateColumns.h"
+#include "VeilGather.h"
+#include "View.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace smokevis
+{
+
+/// What an eye sees of a part of a plate: the part's middle, on the sign's rectangle and in space,
+/// and its solid angle.
+struct SeenPlace
+{
+  glm::dvec2 OnPlate{0.0};
+  Vec3 Point{0.0};
+  double Weight = 0.0;
+};
+
+/// Veil before the places that an eye sees of a sign, in one band.
+class SignVeil
+{
+public:
+  /// @param places that the eye sees; they must, as all but the band, outlive this
+  SignVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places)
+      : View_(view), Eye_(eye), Band_(band), Places_(places)
+  {
+  }
+  virtual ~SignVeil() = default;
+  SignVeil(const SignVeil&) = delete;
+  SignVeil& operator=(const SignVeil&) = delete;
+
+  /// The batches of the veil before a place [cd/m2].
+  virtual Lanes At(std::size_t place) const = 0;
+
+  /// Gathers the level of what is multiply scattered on the ways that veils differ little over
+  /// (View::GatherVeil) and takes it where it is clearly known better so. How the veil varies over
+  /// the plate stays as it is. Returns the number of rays.
+  std::size_t Gather();
+
+protected:
+  /// A way whose light counts in the level, and that light.
+  struct Way
+  {
+    SightLine Line;
+    RayLight Light;
+  };
+
+  RayLight Trace(const Vec3& direction, double begin, double end) const
+  {
+    return this->View_.TraceVeil(this->Eye_, direction, begin, end, this->Band_);
+  }
+
+  const View& View_;
+  const Vec3& Eye_;
+  int Band_;
+  const std::vector<SeenPlace>& Places_;
+  std::vector<Way> Ways_;
+};
+
+/// Veil over the whole plate. Far from the plate the smoke's light varies slowly over it and is
+/// interpolated between three by three rays. Close to the plate the smoke glows in the pattern's
+/// shape, so that each column and row of it gets rays of its own.
+class PlateVeil : public SignVeil
+{
+public:
+  PlateVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places,
+    const Sign& sign, const PlateColumns& columns, const PlateColumns& rows);
+
+  Lanes At(std::size_t place) const override;
+
+private:
+  const PlateColumns& Columns_;
+  const PlateColumns& Rows_;
+  /// Mean over each column of each row of what is added close to the plate.
+  std::vector<Lanes> Near_;
+};
+
+/// Veil before what shows of a plate that is partly hidden, a ray to each place: rays past what
+/// hides it would tell of smoke that is not seen.
+class ShownVeil : public SignVeil
+{
+public:
+  ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places);
+
+  Lanes At(std::size_t place) const override;
+};
+
+} // namespace smokevis
