@@ -21,15 +21,22 @@ namespace
 constexpr double FlatDepth = 0.41;
 constexpr double PieceDepth = 0.5;
 constexpr int MostPieces = 8;
-/// Parts of a piece of a ray near a light: most, where the smoke is thick; and, where the ray runs
-/// into the plate, how many and how much closer to the plate each ends.
-constexpr int MostParts = 16;
-constexpr int GradedParts = 2;
+/// A piece of a ray into a plate is cut so much closer to the plate: behind, the light follows the
+/// pattern.
 constexpr double Grading = 0.25;
-/// A part that spans less than this angle at the light and less than this optical depth needs two
-/// Gauss points, or one: the errors of the rules are angle^4 / 4320 and angle^2 / 24.
-constexpr double TwoPointAngle = 0.8;
-constexpr double OnePointAngle = 0.15;
+/// Parts of a piece of a ray are halved so often at most.
+constexpr int MostHalvings = 3;
+/// Longest parts that Gauss points of some number serve, over their distance from the plate's
+/// edges, and their largest optical depths. The fluence of a plate is smooth but at its edges (it
+/// follows a solid angle, a harmonic function): the error of n points goes with rho^-2n of the
+/// Bernstein ellipse through the nearest edge (Trefethen 2013), 1e-3 for four points beside it.
+struct PartLimit
+{
+  double Length, Depth;
+};
+constexpr PartLimit OnePointPart = {0.25, 0.15};
+constexpr PartLimit TwoPointPart = {1.0, 0.8};
+constexpr PartLimit FourPointPart = {2.0, 1.0};
 
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
@@ -43,11 +50,14 @@ constexpr GaussRule OnePoint = {1, {0.5}, {1.0}};
 constexpr GaussRule TwoPoints = {2, {Nodes2[0], Nodes2[1]}, {0.5, 0.5}};
 constexpr GaussRule FourPoints = {4, Nodes4, Weights4};
 
-const GaussRule& RuleFor(double angle, double depth)
+/// Calls visit(distance along the ray, step) for the places of a rule between two distances.
+template <class Visit>
+void ForEachNode(const GaussRule& rule, double begin, double end, Visit&& visit)
 {
-  return angle < OnePointAngle && depth < OnePointAngle   ? OnePoint
-         : angle < TwoPointAngle && depth < TwoPointAngle ? TwoPoints
-                                                          : FourPoints;
+  for (int i = 0; i < rule.Count; ++i)
+  {
+    visit(begin + rule.Nodes[i] * (end - begin), rule.Weights[i] * (end - begin));
+  }
 }
 
 /// Equiangular places about a light follow 1/d^2 along a ray (Kulla and Fajardo 2012); a light of
@@ -74,62 +84,56 @@ struct Equiangular
   {
     const double low = std::atan((from - this->Middle) / this->Width);
     const double high = std::atan((to - this->Middle) / this->Width);
-    return this->Between(low, high, from, to, share);
-  }
-  /// Calls visit(distance along the ray, step) for the places of a rule between two distances.
-  template <class Visit>
-  void ForEach(double from, double to, double extinction, Visit&& visit) const
-  {
-    const double low = std::atan((from - this->Middle) / this->Width);
-    const double high = std::atan((to - this->Middle) / this->Width);
-    const GaussRule& rule = RuleFor(high - low, extinction * (to - from));
-    for (int i = 0; i < rule.Count; ++i)
-    {
-      const Place place = this->Between(low, high, from, to, rule.Nodes[i]);
-      visit(place.Distance, rule.Weights[i] * place.Step);
-    }
-  }
-
-private:
-  Place Between(double low, double high, double from, double to, double share) const
-  {
     const double tangent = std::tan(low + (high - low) * share);
     return {std::clamp(this->Middle + this->Width * tangent, from, to),
       (high - low) * this->Width * (1.0 + tangent * tangent)};
   }
 };
 
-/// Ends of the parts that a piece of a ray near a light is cut into; returns their number.
-int PartEnds(const LightGroup& light, const Vec3& origin, const Vec3& direction, double begin,
-  double end, double extinction, std::array<double, MostParts + 1>& ends)
+/// The same for the places of a quadrature of a light's fluence along a part of a ray.
+template <class Visit>
+void ForEachPlace(const LightGroup& light, const Vec3& origin, const Vec3& direction, double begin,
+  double end, double extinction, int halvings, Visit&& visit)
 {
-  ends[0] = begin;
+  const double length = end - begin;
+  const double middle = 0.5 * (begin + end);
+  const double distance = light.EdgeDistance(origin + middle * direction);
+  const auto within = [&](const PartLimit& limit)
+  { return length <= limit.Length * distance && extinction * length <= limit.Depth; };
+  if (halvings > 0 && !within(FourPointPart))
+  {
+    ForEachPlace(light, origin, direction, begin, middle, extinction, halvings - 1, visit);
+    ForEachPlace(light, origin, direction, middle, end, extinction, halvings - 1, visit);
+    return;
+  }
+  ForEachNode(within(OnePointPart)   ? OnePoint
+              : within(TwoPointPart) ? TwoPoints
+                                     : FourPoints,
+    begin, end, visit);
+}
+
+/// The same of what lies before the light's plate of a piece of a ray.
+template <class Visit>
+void ForEachPlaceBefore(const LightGroup& light, const Vec3& origin, const Vec3& direction,
+  double begin, double end, double extinction, Visit&& visit)
+{
   const double first = glm::dot(origin + begin * direction - light.Centre, light.Normal);
-  double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
-  // A ray that ends on the plate may seem to end behind it.
-  last = std::abs(last) < 1e-6 * first ? 0.0 : last;
-  const double close = glm::length(origin + end * direction - light.Centre);
-  if (last >= 0.0 && last < 0.3 * first && close < 1.5 * light.Radius)
+  const double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
+  if (first <= 0.0 && last <= 0.0)
   {
-    // The ray ends close to the plate, where the light follows the pattern: parts shrink towards
-    // it.
-    int parts = 0;
-    for (double height = first; parts + 1 < GradedParts && height * Grading > last;)
-    {
-      height *= Grading;
-      ends[++parts] = begin + (end - begin) * (first - height) / (first - last);
-    }
-    ends[++parts] = end;
-    return parts;
+    return;
   }
-  // The parts are shorter where the smoke is thick.
-  const int parts =
-    std::clamp(static_cast<int>(std::ceil(extinction * (end - begin))), 1, MostParts);
-  for (int part = 1; part <= parts; ++part)
+  const double plane = begin + (end - begin) * std::clamp(first / (first - last), 0.0, 1.0);
+  const double from = first < 0.0 ? plane : begin;
+  const double to = last < 0.0 ? plane : end;
+  if (std::max(last, 0.0) >= Grading * first)
   {
-    ends[part] = part == parts ? end : begin + (end - begin) * part / parts;
+    ForEachPlace(light, origin, direction, from, to, extinction, MostHalvings, visit);
+    return;
   }
-  return parts;
+  const double cut = begin + (end - begin) * (1.0 - Grading) * first / (first - last);
+  ForEachPlace(light, origin, direction, from, cut, extinction, MostHalvings, visit);
+  ForEachNode(FourPoints, cut, to, visit);
 }
 
 } // namespace
@@ -284,21 +288,15 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
   {
     const LightGroup& root = this->Scene_.Lights().Root(near.Index);
     const NearField* field = this->Lights_->Field(near.Index);
-    const Equiangular places(root, origin, direction);
-    std::array<double, MostParts + 1> ends;
-    const int parts = PartEnds(root, origin, direction, begin, end, extinction, ends);
-    for (int part = 0; part < parts; ++part)
-    {
-      places.ForEach(ends[part], ends[part + 1], extinction,
-        [&](double distance, double step)
-        {
-          const Vec3 point = origin + distance * direction;
-          const double fluence = near.Clear && field
-                                   ? field->Fluence(point, band)
-                                   : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
-          sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
-        });
-    }
+    ForEachPlaceBefore(root, origin, direction, begin, end, extinction,
+      [&](double distance, double step)
+      {
+        const Vec3 point = origin + distance * direction;
+        const double fluence = near.Clear && field
+                                 ? field->Fluence(point, band)
+                                 : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
+        sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
+      });
   }
   return sum * this->Scene_.Albedo() / (4.0 * glm::pi<double>());
 }

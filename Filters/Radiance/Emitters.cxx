@@ -48,24 +48,6 @@ Vec3 FirstEdge(const std::vector<Vec3>& vertices)
     [&](const Vec3& edge) { return glm::length(edge) >= LeastShare * longest; });
 }
 
-/// Distance of a point from a plane convex polygon with a unit normal [m].
-double DistanceFrom(const std::array<Vec3, 4>& corners, const Vec3& normal, const Vec3& point)
-{
-  const double height = glm::dot(point - corners[0], normal);
-  bool inside = true;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
-    const Vec3 from = point - corners[i];
-    const double square = glm::dot(edge, edge);
-    inside = inside && glm::dot(glm::cross(edge, from), normal) >= 0.0;
-    const double share = square > 0.0 ? std::clamp(glm::dot(from, edge) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, glm::length(from - share * edge));
-  }
-  return inside ? std::abs(height) : least;
-}
-
 void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 {
   const std::string where = "emitter cell " + std::to_string(index);
@@ -138,7 +120,14 @@ double LightGroup::Distance(const Vec3& point) const
 {
   if (this->FirstChild < 0)
   {
-    return DistanceFrom(this->Corners, this->Normal, point);
+    bool inside = true;
+    for (std::size_t i = 0; i < this->Corners.size() && inside; ++i)
+    {
+      const Vec3 edge = this->Corners[(i + 1) % this->Corners.size()] - this->Corners[i];
+      inside = glm::dot(glm::cross(edge, point - this->Corners[i]), this->Normal) >= 0.0;
+    }
+    return inside ? std::abs(glm::dot(point - this->Corners[0], this->Normal))
+                  : this->EdgeDistance(point);
   }
   const Vec3 u = this->Corners[1] - this->Corners[0];
   const Vec3 v = this->Corners[3] - this->Corners[0];
@@ -146,6 +135,21 @@ double LightGroup::Distance(const Vec3& point) const
   const double s = std::clamp(glm::dot(from, u) / glm::dot(u, u), 0.0, 1.0);
   const double t = std::clamp(glm::dot(from, v) / glm::dot(v, v), 0.0, 1.0);
   return glm::length(from - s * u - t * v);
+}
+
+double LightGroup::EdgeDistance(const Vec3& point) const
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  {
+    const Vec3 edge = this->Corners[(i + 1) % this->Corners.size()] - this->Corners[i];
+    const Vec3 from = point - this->Corners[i];
+    const double square = glm::dot(edge, edge);
+    const double share = square > 0.0 ? std::clamp(glm::dot(from, edge) / square, 0.0, 1.0) : 0.0;
+    const Vec3 apart = from - share * edge;
+    least = std::min(least, glm::dot(apart, apart));
+  }
+  return std::sqrt(least);
 }
 
 EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)

@@ -78,6 +78,8 @@ struct LightGroup
   bool Plane() const { return this->Depth <= 1e-3 * this->Radius; }
   /// Distance of a point from a leaf, or from the plane rectangle around the group [m].
   double Distance(const Vec3& point) const;
+  /// Distance of a point from the edges of the leaf or of that rectangle [m].
+  double EdgeDistance(const Vec3& point) const;
   /// A place between the corners, and the area for each unit of u and v there [m2].
   Vec3 At(double u, double v) const;
   double AreaAt(double u, double v) const;

@@ -1,10 +1,12 @@
 #include "NearField.h"
 
+#include "PolygonLight.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace smokevis
@@ -171,6 +173,14 @@ Vec3 NearField::FromPlate(const Vec3& place) const
 
 double NearField::PlateAngle(const Vec3& place) const
 {
+  const LightGroup& root = this->Scene_.Lights().Root(this->Light_);
+  if (root.FirstChild < 0)
+  {
+    const Vec3 point = this->FromPlate(place);
+    const std::array<Vec3, 4>& corners = root.Corners;
+    return SolidAngle(point, corners[0], corners[1], corners[2]) +
+           SolidAngle(point, corners[0], corners[2], corners[3]);
+  }
   // Sum over the corners of atan(x y / (z r)), with signs (Gossman et al. for an off-axis
   // rectangle). Two sums of two arctangents each are joined.
   const double z = place.z;
@@ -178,13 +188,12 @@ double NearField::PlateAngle(const Vec3& place) const
   for (const double sideX : {-1.0, 1.0})
   {
     const double x = sideX * this->Half_[0] - place.x;
-    std::array<double, 2> tangent;
-    for (const int side : {0, 1})
-    {
-      const double y = (side == 0 ? -1.0 : 1.0) * this->Half_[1] - place.y;
-      tangent[side] = std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
-    }
-    angle += sideX * (tangent[1] - tangent[0]);
+    // Real and imaginary parts of what has the two arctangents for its argument, without a factor.
+    const auto corner = [&](double y)
+    { return std::complex<double>(z * std::sqrt(x * x + y * y + z * z), x * y); };
+    const std::complex<double> sum =
+      corner(this->Half_[1] - place.y) * std::conj(corner(-this->Half_[1] - place.y));
+    angle += sideX * std::arg(sum);
   }
   return angle;
 }

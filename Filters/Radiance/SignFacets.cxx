@@ -1,7 +1,7 @@
 #include "SignFacets.h"
 
-#include "PolygonClip.h"
 #include "PlateColumns.h"
+#include "PolygonClip.h"
 
 #include <algorithm>
 #include <cmath>

@@ -204,6 +204,74 @@ TEST(DirectField, VeilBeforeAWideUnlitBar)
   EXPECT_NEAR(veil / expected, 1.0, 0.005);
 }
 
+// Rays that pass or meet a slender lamp, a triangle or a wide one anywhere, from afar and from 1 cm
+// before it, through cells shorter and longer than the lamp is wide: their veil against 2000
+// places.
+TEST(DirectField, VeilBesideLampsOfAnyShape)
+{
+  constexpr double Thin = 0.3;
+  for (const int cells : {6, 16})
+  {
+    for (const auto& plate :
+      {std::vector<Vec3>{{1.4, 1.93, 2}, {1.4, 2.08, 2}, {2.6, 2.08, 2}, {2.6, 1.93, 2}},
+        {{1.5, 1.6, 2}, {1.62, 2.6, 2}, {1.88, 2.6, 2}},
+        {{1.6, 1.6, 2}, {1.6, 2.4, 2}, {2.4, 2.4, 2}, {2.4, 1.6, 2}}})
+    {
+      SceneDescription description;
+      description.Albedo = 0.5;
+      SmokeGrid grid;
+      for (auto& nodes : grid.Nodes)
+      {
+        for (int i = 0; i <= cells; ++i)
+        {
+          nodes.push_back(4.0 * i / cells);
+        }
+      }
+      grid.Extinction.assign(cells * cells * cells, static_cast<float>(Thin));
+      description.Grids = {grid};
+      EmitterCell lamp;
+      lamp.Vertices = plate;
+      lamp.Luminance.fill(1000.0);
+      description.Emitters = {lamp};
+      const Scene scene(description);
+      LightFieldOptions options;
+      options.Tolerance = 0.5;
+      Progress progress;
+      const LightField field = SolveLightField(scene, options, progress);
+      const DirectField inside(scene, field);
+      const DirectLight direct(scene);
+      for (const auto& [height, slope] : {std::pair{0.01, 0.0}, {0.04, 0.0}, {0.1, 0.0}, {0.4, 0.0},
+             {0.02, 0.05}, {0.1, 0.3}, {0.2, 0.6}})
+      {
+        for (const double turn : {0.05, 0.8, 1.5, 2.6})
+        {
+          const Vec3 direction = glm::normalize(Vec3(std::cos(turn), std::sin(turn), slope));
+          const Vec3 origin = Vec3(1.75, 2.03, 2.0 - height) - 0.4 * direction;
+          std::vector<Segment> pieces;
+          scene.Smoke().Walk(origin, direction, 0.0, 0.8, pieces);
+          double veil = 0.0;
+          for (const Segment& piece : pieces)
+          {
+            ASSERT_TRUE(inside.Near(piece.Cell));
+            veil += std::exp(-Thin * piece.Begin) *
+                    inside.NearVeil(piece.Cell, origin, direction, piece.Begin, piece.End, Thin, 0);
+          }
+          constexpr int Steps = 2000;
+          double expected = 0.0;
+          for (int i = 0; i < Steps; ++i)
+          {
+            const double way = (i + 0.5) / Steps * 0.8;
+            expected += direct.Fluence(0, origin + way * direction)[0] * std::exp(-Thin * way);
+          }
+          expected *= Thin * 0.8 / Steps * 0.5 / (4.0 * 3.141592653589793);
+          EXPECT_NEAR(veil / expected, 1.0, 0.02)
+            << cells << ' ' << plate.size() << ' ' << plate[1].y << ' ' << height << ' ' << turn;
+        }
+      }
+    }
+  }
+}
+
 // The only light is near: nothing is left for the smooth part, in any cell around it.
 TEST_F(DirectFieldTest, NothingIsCountedTwice)
 {
