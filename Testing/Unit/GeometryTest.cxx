@@ -1,8 +1,10 @@
 // Rays against surfaces and plates: distance, side, and who wins where shapes touch.
 #include "Geometry.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +69,26 @@ TEST(Geometry, DistancesInDoublePrecision)
   const Hit hit = shapes.Intersect(offset + Vec3(0, 0, 3), direction, 0.0, Far);
   ASSERT_TRUE(hit.Found());
   EXPECT_NEAR(hit.Distance, -3.0 / direction.z, 1e-8);
+}
+
+// A point sees backs alone where each direction ends on the back of a surface or on a plate; a
+// front, or nothing, in any of them tells otherwise, and plates alone tell nothing.
+TEST(Geometry, SeesBacksAlone)
+{
+  SurfaceMesh outward = Square(2.0);
+  const SurfaceMesh floor = Square(-1.0, 1.0, false);
+  AddQuad(outward, floor.Points[0], floor.Points[1], floor.Points[2], floor.Points[3]);
+  const SurfaceMesh plate = Square(1.0, 0.5, false);
+  const Geometry shapes(outward, plate);
+  const Vec3 under(0.8, 0.8, 0.0);
+  const Vec3 behindPlate(0.0, 0.0, 0.0);
+  const std::array<Vec3, 2> bothWays = {Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  EXPECT_TRUE(shapes.SeesBacks(under, bothWays));
+  EXPECT_TRUE(shapes.SeesBacks(behindPlate, bothWays));
+  EXPECT_FALSE(shapes.SeesBacks(behindPlate, std::span(bothWays).first(1)));
+  const std::array<Vec3, 2> aside = {Vec3(0, 0, 1), Vec3(1, 0, 0)};
+  EXPECT_FALSE(shapes.SeesBacks(under, aside));
+  EXPECT_FALSE(shapes.SeesBacks({0.8, 0.8, 3.0}, bothWays));
 }
 
 TEST(Geometry, Nothing)

@@ -112,7 +112,7 @@ TEST(Photometry, SharpBeams)
     const Solved solved(std::move(scene), 0.1);
     const Estimate smoke = solved.AbsorbedInSmoke();
     const Estimate surfaces = solved.AbsorbedOnSurfaces();
-    report::Relative(name, solved.TheScene->Lights().Flux(0), smoke.Mean + surfaces.Mean, 0.02,
+    report::Relative(name, solved.TheScene->Lights().Flux(0), smoke.Mean + surfaces.Mean, 0.005,
       std::hypot(smoke.StandardError, surfaces.StandardError));
     EXPECT_GT(smoke.StandardError, 0.0);
   };

@@ -116,6 +116,9 @@ TEST(BadInput, Emitters)
   ExpectRefused("luminance is not a number",
     [](SceneDescription& scene) { scene.Emitters[2].Luminance[0] = NaN; },
     {"emitter cell 2", "luminance"});
+  ExpectRefused("luminances beyond all sums",
+    [](SceneDescription& scene) { scene.Emitters[2].Luminance[0] = 1e300; },
+    {"direct light", "finite", "luminances"});
   ExpectRefused("reflectance above 1",
     [](SceneDescription& scene) { scene.Emitters[2].Reflectance[0] = 1.5; },
     {"emitter cell 2", "reflectance"});
@@ -290,11 +293,14 @@ TEST(OddInput, ReflectingSignInARoomInsideOut)
     scene.Albedo = 0.5;
     scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4, 4, 3), {16, 16, 12}, 0.2)};
     scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4, 4, 3), 0.5, 0.6);
-    for (auto& triangle : scene.Surfaces.Triangles)
+    if (insideOut)
     {
-      std::swap(triangle[1], triangle[insideOut ? 2 : 1]);
+      for (auto& triangle : scene.Surfaces.Triangles)
+      {
+        std::swap(triangle[1], triangle[2]);
+      }
     }
-    scene.Emitters = {scenes::Plate({2, 1, 2.99}, {0, 0, -1}, {1, 0, 0}, 1.5, 1.5, 500.0),
+    scene.Emitters = {scenes::Plate({2, 2, 2.99}, {0, 0, -1}, {1, 0, 0}, 1.5, 1.5, 500.0),
       scenes::Plate({2, 3.5, 1.5}, {0, -1, 0}, {0, 0, 1}, 1.0, 0.4, 0.0, 0.8, 0)};
     const Solved solved(std::move(scene), 0.1);
     values.push_back(solved.Luminance({{2.0, 1.0, 1.5}, {0, 1, 0}}));

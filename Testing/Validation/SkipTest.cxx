@@ -438,6 +438,7 @@ TEST(Skip, SignsBelowTheCutOff)
   const FloorMap cut = ComputeFloorMap(view, options, progress);
   int kept = 0;
   int left = 0;
+  EXPECT_EQ(cut.Status, full.Status);
   for (std::size_t place = 0; place < full.Visibility.size(); ++place)
   {
     if (full.Visibility[place] >= options.CutOff)
