@@ -1,0 +1,87 @@
+// Lamps right beside signs, and in smoke as thick as its cells: what the README's limits say.
+#include "Contrast.h"
+#include "ReferenceContrast.h"
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <string>
+
+namespace
+{
+
+using namespace smokevis;
+
+// A sign that only reflects, 0.4 m below a lamp: its cells share the indirect light that they
+// reflect, so that the contrast comes out too low, by 0.003 in clear or black smoke and by 0.010
+// between bright walls in smoke that scatters.
+TEST(LampNearby, AboveASignThatReflects)
+{
+  report::Head("Contrast of a sign that reflects, 0.4 m below a lamp");
+  for (const double reflectance : {0.0, 0.3})
+  {
+    for (const double albedo : {0.0, 0.6})
+    {
+      SceneDescription scene;
+      scene.Albedo = albedo;
+      scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 3}, {24, 16, 12}, 0.3)};
+      scenes::AddRoom(scene.Surfaces, Vec3(0.0), {6, 4, 3}, 0.25, reflectance);
+      scene.Emitters =
+        scenes::Barcode({5.99, 2, 1.8}, {-1, 0, 0}, {0, 0, 1}, 0.4, 0.2, 5, 0.0, 0, 0.05);
+      for (std::size_t cell = 0; cell < scene.Emitters.size(); cell += 2)
+      {
+        scene.Emitters[cell].Reflectance.fill(0.8);
+      }
+      scene.Emitters.push_back(
+        scenes::Plate({5.7, 2.0, 2.2}, {0.3, 0, -1}, {0, 1, 0}, 0.3, 0.1, 3000.0));
+      const Solved solved(scene, 0.05);
+      const Vec3 eye(1, 2, 1.7);
+      const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
+      const Estimate reference = ReferenceContrast(*solved.TheScene, eye, 2000);
+      report::Absolute("walls " + std::to_string(reflectance).substr(0, 3) + ", albedo " +
+                         std::to_string(albedo).substr(0, 3),
+        reference.Mean, sign.Contrast, albedo > 0.0 ? 0.012 : 0.005,
+        std::hypot(reference.StandardError, sign.ContrastError));
+    }
+  }
+}
+
+// Fluence under a lamp in cells of one and of two mean free paths, against cells of half the size:
+// in thick cells the light of a lamp does not get as far as it should.
+TEST(LampNearby, InThickCells)
+{
+  constexpr double CellSize = 0.25;
+  for (const auto& [depth, tolerance] : {std::pair{1.0, 0.05}, {2.0, 0.17}})
+  {
+    const auto solve = [&, depth = depth](int parts)
+    {
+      SceneDescription scene;
+      scene.Albedo = 0.9;
+      scene.Grids = {scenes::UniformSmoke(
+        Vec3(0.0), {3, 3, 3}, {12 * parts, 12 * parts, 12 * parts}, depth / CellSize)};
+      scenes::AddRoom(scene.Surfaces, Vec3(0.0), {3, 3, 3}, 0.5, 0.0);
+      scene.Emitters = {scenes::Plate({1.5, 1.5, 2.99}, {0, 0, -1}, {1, 0, 0}, 0.6, 1.2, 1000.0)};
+      return Solved(std::move(scene), 0.05);
+    };
+    const Solved coarse = solve(1);
+    const Solved fine = solve(2);
+    report::Head("Fluence under a lamp in cells of " + std::to_string(depth).substr(0, 3) +
+                 " mean free paths [lx]");
+    for (const double height : {0.125, 0.375, 0.625, 0.875, 1.125, 1.375})
+    {
+      std::vector<std::int64_t> parts;
+      for (int part = 0; part < 8; ++part)
+      {
+        const Vec3 share(part % 2 - 0.5, part / 2 % 2 - 0.5, part / 4 - 0.5);
+        parts.push_back(
+          fine.TheScene->Smoke().Locate(Vec3(1.625, 1.625, 3.0 - height) + 0.5 * CellSize * share));
+      }
+      const Estimate reference = fine.Fluence(parts);
+      const Estimate value = coarse.Fluence(Vec3(1.625, 1.625, 3.0 - height));
+      report::Relative(std::to_string(height).substr(0, 5) + " m off", reference.Mean, value.Mean,
+        tolerance, std::hypot(reference.StandardError, value.StandardError));
+    }
+  }
+}
+
+} // namespace
