@@ -285,7 +285,7 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
 
   task.Description = smokevis::BuildScene(blocks, task.Options);
   task.Description.LeapsClearAir = this->SkipNeedlessWork;
-  if (this->Bands == RGB && smokevis::BandsAreEqual(task.Description))
+  if (this->Bands == RGB && this->SkipNeedlessWork && smokevis::BandsAreEqual(task.Description))
   {
     task.Description.Bands = 1;
     report.push_back({"Bands left out", 2.0, "all bands are equal and were solved once"});

@@ -24,19 +24,24 @@ constexpr int MostPieces = 8;
 /// A piece of a ray into a plate is cut so much closer to the plate: behind, the light follows the
 /// pattern.
 constexpr double Grading = 0.25;
+/// Length over height of such a last part up to which four points serve it wherever it ends.
+constexpr double LongestSteep = 2.0;
 /// Parts of a piece of a ray are halved so often at most.
 constexpr int MostHalvings = 3;
-/// Longest parts that Gauss points of some number serve, over their distance from the plate's
-/// edges, and their largest optical depths. The fluence of a plate is smooth but at its edges (it
-/// follows a solid angle, a harmonic function): the error of n points goes with rho^-2n of the
-/// Bernstein ellipse through the nearest edge (Trefethen 2013), 1e-3 for four points beside it.
+/// Largest parts that Gauss points of some number serve: their length over the distance from the
+/// plate's edges, or, so many radii away from the light, the angle that they span there; and their
+/// optical depth. Close to the light its fluence is smooth but at the edges (it follows a solid
+/// angle, a harmonic function): the error of n points goes with rho^-2n of the Bernstein ellipse
+/// through the nearest edge (Trefethen 2013), 1e-3 for four points beside it. Far away the rules'
+/// errors are angle^2 / 24 and angle^4 / 4320.
+constexpr double FarRadii = 1.5;
 struct PartLimit
 {
-  double Length, Depth;
+  double Length, Angle, Depth;
 };
-constexpr PartLimit OnePointPart = {0.25, 0.15};
-constexpr PartLimit TwoPointPart = {1.0, 0.8};
-constexpr PartLimit FourPointPart = {2.0, 1.0};
+constexpr PartLimit OnePointPart = {0.25, 0.15, 0.15};
+constexpr PartLimit TwoPointPart = {1.0, 0.8, 0.8};
+constexpr PartLimit FourPointPart = {2.0, 2.0, 1.0};
 
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
@@ -50,28 +55,16 @@ constexpr GaussRule OnePoint = {1, {0.5}, {1.0}};
 constexpr GaussRule TwoPoints = {2, {Nodes2[0], Nodes2[1]}, {0.5, 0.5}};
 constexpr GaussRule FourPoints = {4, Nodes4, Weights4};
 
-/// Calls visit(distance along the ray, step) for the places of a rule between two distances.
-template <class Visit>
-void ForEachNode(const GaussRule& rule, double begin, double end, Visit&& visit)
-{
-  for (int i = 0; i < rule.Count; ++i)
-  {
-    visit(begin + rule.Nodes[i] * (end - begin), rule.Weights[i] * (end - begin));
-  }
-}
-
 /// Equiangular places about a light follow 1/d^2 along a ray (Kulla and Fajardo 2012); a light of
 /// some size is no steeper than its radius.
-struct Equiangular
+class Equiangular
 {
-  double Middle;
-  double Width;
-
+public:
   Equiangular(const LightGroup& light, const Vec3& origin, const Vec3& direction)
-      : Middle(glm::dot(light.Centre - origin, direction))
+      : Middle_(glm::dot(light.Centre - origin, direction)),
+        Aside_(glm::length(origin + Middle_ * direction - light.Centre)),
+        Width_(std::max({Aside_, 0.5 * light.Radius, 1e-9}))
   {
-    const double aside = glm::length(origin + this->Middle * direction - light.Centre);
-    this->Width = std::max({aside, 0.5 * light.Radius, 1e-9});
   }
 
   struct Place
@@ -82,59 +75,120 @@ struct Equiangular
   /// The place at a share of the angle between two distances.
   Place At(double from, double to, double share) const
   {
-    const double low = std::atan((from - this->Middle) / this->Width);
-    const double high = std::atan((to - this->Middle) / this->Width);
-    const double tangent = std::tan(low + (high - low) * share);
-    return {std::clamp(this->Middle + this->Width * tangent, from, to),
-      (high - low) * this->Width * (1.0 + tangent * tangent)};
+    const double low = this->Angle(from);
+    return this->Between(low, this->Angle(to), from, to, share);
   }
+  /// Calls visit(distance along the ray, step) for the places of a rule between two distances.
+  template <class Visit>
+  void ForEach(const GaussRule& rule, double from, double to, Visit&& visit) const
+  {
+    const double low = this->Angle(from);
+    const double high = this->Angle(to);
+    for (int i = 0; i < rule.Count; ++i)
+    {
+      const Place place = this->Between(low, high, from, to, rule.Nodes[i]);
+      visit(place.Distance, rule.Weights[i] * place.Step);
+    }
+  }
+  double Angle(double distance) const
+  {
+    return std::atan((distance - this->Middle_) / this->Width_);
+  }
+  /// Whether a part of the ray stays farther from the light's centre than some distance.
+  bool Beyond(double distance, double from, double to) const
+  {
+    const double along = std::max({from - this->Middle_, this->Middle_ - to, 0.0});
+    return this->Aside_ * this->Aside_ + along * along > distance * distance;
+  }
+
+private:
+  Place Between(double low, double high, double from, double to, double share) const
+  {
+    const double tangent = std::tan(low + (high - low) * share);
+    return {std::clamp(this->Middle_ + this->Width_ * tangent, from, to),
+      (high - low) * this->Width_ * (1.0 + tangent * tangent)};
+  }
+
+  double Middle_, Aside_, Width_;
 };
 
-/// The same for the places of a quadrature of a light's fluence along a part of a ray.
-template <class Visit>
-void ForEachPlace(const LightGroup& light, const Vec3& origin, const Vec3& direction, double begin,
-  double end, double extinction, int halvings, Visit&& visit)
+/// Places of a quadrature of a light's fluence along a ray.
+class LightQuadrature
 {
-  const double length = end - begin;
-  const double middle = 0.5 * (begin + end);
-  const double distance = light.EdgeDistance(origin + middle * direction);
-  const auto within = [&](const PartLimit& limit)
-  { return length <= limit.Length * distance && extinction * length <= limit.Depth; };
-  if (halvings > 0 && !within(FourPointPart))
+public:
+  LightQuadrature(
+    const LightGroup& light, const Vec3& origin, const Vec3& direction, double extinction)
+      : Light_(light), Origin_(origin), Direction_(direction), Extinction_(extinction),
+        Sharpness_(light.Law.LeafSharpness()), Places_(light, origin, direction)
   {
-    ForEachPlace(light, origin, direction, begin, middle, extinction, halvings - 1, visit);
-    ForEachPlace(light, origin, direction, middle, end, extinction, halvings - 1, visit);
-    return;
   }
-  ForEachNode(within(OnePointPart)   ? OnePoint
-              : within(TwoPointPart) ? TwoPoints
-                                     : FourPoints,
-    begin, end, visit);
-}
 
-/// The same of what lies before the light's plate of a piece of a ray.
-template <class Visit>
-void ForEachPlaceBefore(const LightGroup& light, const Vec3& origin, const Vec3& direction,
-  double begin, double end, double extinction, Visit&& visit)
-{
-  const double first = glm::dot(origin + begin * direction - light.Centre, light.Normal);
-  const double last = glm::dot(origin + end * direction - light.Centre, light.Normal);
-  if (first <= 0.0 && last <= 0.0)
+  /// Calls visit(distance along the ray, step) for what lies before the light's plate of a piece of
+  /// the ray.
+  template <class Visit> void ForEach(double begin, double end, Visit&& visit) const
   {
-    return;
+    const double first = this->Height(begin);
+    const double last = this->Height(end);
+    if (first <= 0.0 && last <= 0.0)
+    {
+      return;
+    }
+    const auto at = [&](double share) { return std::min(begin + (end - begin) * share, end); };
+    const double plane = at(std::clamp(first / (first - last), 0.0, 1.0));
+    const double from = first < 0.0 ? plane : begin;
+    const double to = last < 0.0 ? plane : end;
+    if (std::max(last, 0.0) >= Grading * first)
+    {
+      this->ForEachOf(from, to, 1, MostHalvings, visit);
+      return;
+    }
+    const double cut = std::min(at((1.0 - Grading) * first / (first - last)), to);
+    this->ForEachOf(from, cut, 1, MostHalvings, visit);
+    // A ray that runs along the plate may pass many edges there.
+    const bool steep = to - cut <= LongestSteep * this->Height(cut);
+    this->ForEachOf(cut, to, FourPoints.Count, steep ? 0 : MostHalvings, visit);
   }
-  const double plane = begin + (end - begin) * std::clamp(first / (first - last), 0.0, 1.0);
-  const double from = first < 0.0 ? plane : begin;
-  const double to = last < 0.0 ? plane : end;
-  if (std::max(last, 0.0) >= Grading * first)
+
+private:
+  double Height(double distance) const
   {
-    ForEachPlace(light, origin, direction, from, to, extinction, MostHalvings, visit);
-    return;
+    return glm::dot(
+      this->Origin_ + distance * this->Direction_ - this->Light_.Centre, this->Light_.Normal);
   }
-  const double cut = begin + (end - begin) * (1.0 - Grading) * first / (first - last);
-  ForEachPlace(light, origin, direction, from, cut, extinction, MostHalvings, visit);
-  ForEachNode(FourPoints, cut, to, visit);
-}
+
+  template <class Visit>
+  void ForEachOf(double begin, double end, int leastPoints, int halvings, Visit&& visit) const
+  {
+    const double length = end - begin;
+    const double middle = 0.5 * (begin + end);
+    const bool far = this->Places_.Beyond(FarRadii * this->Light_.Radius, begin, end);
+    const double unit =
+      far ? 1.0 : this->Light_.EdgeDistance(this->Origin_ + middle * this->Direction_);
+    const double size = far ? this->Places_.Angle(end) - this->Places_.Angle(begin) : length;
+    const auto within = [&](const PartLimit& limit)
+    {
+      return this->Sharpness_ * size <= unit * (far ? limit.Angle : limit.Length) &&
+             this->Extinction_ * length <= limit.Depth;
+    };
+    if (halvings > 0 && !within(FourPointPart))
+    {
+      this->ForEachOf(begin, middle, leastPoints, halvings - 1, visit);
+      this->ForEachOf(middle, end, leastPoints, halvings - 1, visit);
+      return;
+    }
+    const GaussRule& rule = leastPoints > 2 || !within(TwoPointPart) ? FourPoints
+                            : within(OnePointPart)                   ? OnePoint
+                                                                     : TwoPoints;
+    this->Places_.ForEach(rule, begin, end, visit);
+  }
+
+  const LightGroup& Light_;
+  Vec3 Origin_, Direction_;
+  double Extinction_;
+  /// How fast the light changes with the angle, 1 or more.
+  double Sharpness_;
+  Equiangular Places_;
+};
 
 } // namespace
 
@@ -288,15 +342,16 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
   {
     const LightGroup& root = this->Scene_.Lights().Root(near.Index);
     const NearField* field = this->Lights_->Field(near.Index);
-    ForEachPlaceBefore(root, origin, direction, begin, end, extinction,
-      [&](double distance, double step)
-      {
-        const Vec3 point = origin + distance * direction;
-        const double fluence = near.Clear && field
-                                 ? field->Fluence(point, band)
-                                 : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
-        sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
-      });
+    LightQuadrature(root, origin, direction, extinction)
+      .ForEach(begin, end,
+        [&](double distance, double step)
+        {
+          const Vec3 point = origin + distance * direction;
+          const double fluence = near.Clear && field
+                                   ? field->Fluence(point, band)
+                                   : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
+          sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
+        });
   }
   return sum * this->Scene_.Albedo() / (4.0 * glm::pi<double>());
 }

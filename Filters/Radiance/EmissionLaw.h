@@ -41,6 +41,8 @@ public:
   double UnitFlux() const;
   /// Whether a measured table gives the law.
   bool Measured() const { return this->Table_ != nullptr; }
+  /// Whether luminance is the same in all directions.
+  bool Lambertian() const { return this->Table_ == nullptr && this->Exponent_ == 0.0; }
   /// How fast the light changes with the angle, at least 1 [1/rad]; no more than cells are cut for.
   double Sharpness() const;
   /// The same, no more than leaves of a light are cut for, which costs less.

@@ -22,6 +22,9 @@ constexpr int Steps = 5;
 /// Steps of the innermost from the plate to its end, each longer than the one before: in smoke,
 /// light falls off most steeply right at the plate.
 constexpr int GradedSteps = 10;
+/// How many times as many steps a light takes that is not Lambertian: what is left of it over that
+/// of an even plate falls off with the angle.
+constexpr int LawSteps = 2;
 /// A level has no more steps than this along one side of the plate.
 constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
@@ -118,12 +121,14 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     scene.Smoke().Locate(this->Centre_ + 10.0 * scene.Shapes().Tolerance() * root.Normal);
   this->Extinction_ = cell < 0 ? 0.0 : scene.Smoke().Extinction(cell);
 
+  const int finer = root.Law.Lambertian() ? 1 : LawSteps;
   // The innermost level follows the plate's pattern.
-  double first = std::max(FinestEdge(lights, root), InnermostSteps * longest / MostStepsAcross);
+  double first =
+    std::max(FinestEdge(lights, root), finer * InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {
-    const double step = distance / (this->Levels_.empty() ? InnermostSteps : Steps);
+    const double step = distance / (finer * (this->Levels_.empty() ? InnermostSteps : Steps));
     if (this->Extinction_ * scene.LargestScale() * step > ThickStep)
     {
       break;
@@ -135,7 +140,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
       const int steps = axis == 2 && level->Graded
-                          ? GradedSteps
+                          ? finer * GradedSteps
                           : static_cast<int>(std::ceil(2.0 * half / step - Rounding));
       level->Count[axis] = steps + 1;
       level->Step[axis] = 2.0 * half / steps;
@@ -316,27 +321,36 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
     share[axis] = std::clamp((place[axis] - begin) / (end - begin), 0.0, 1.0);
   }
   const double depth = this->EvenDepth(place, band);
-  double logarithm = -depth;
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    std::array<int, 3> other = node;
-    double weight = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const bool upper = (corner >> axis & 1) != 0;
-      other[axis] += upper ? 1 : 0;
-      weight *= upper ? share[axis] : 1.0 - share[axis];
-    }
-    const double value = this->NodeValue(level, other, band);
-    logarithm += weight * value;
-    sum += weight * std::exp(value - depth);
-  }
   // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
   // smoke exponentially.
   const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) *
                            (level.Place(2, node[2] + 1) - level.Place(2, node[2]));
-  return stepDepth > ThinStep && std::isfinite(logarithm) ? std::exp(logarithm) : sum;
+  const auto mean = [&](const auto& of)
+  {
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      std::array<int, 3> other = node;
+      double weight = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const bool upper = (corner >> axis & 1) != 0;
+        other[axis] += upper ? 1 : 0;
+        weight *= upper ? share[axis] : 1.0 - share[axis];
+      }
+      sum += weight * of(this->NodeValue(level, other, band));
+    }
+    return sum;
+  };
+  if (stepDepth > ThinStep)
+  {
+    const double logarithm = mean([](double value) { return value; });
+    if (std::isfinite(logarithm))
+    {
+      return std::exp(logarithm - depth);
+    }
+  }
+  return mean([depth](double value) { return std::exp(value - depth); });
 }
 
 } // namespace smokevis

@@ -20,7 +20,7 @@ constexpr double NearEdges = 4.01;
 /// Closer than this, a cell's mean is not found from a few points.
 constexpr double CloseEdges = 2.01;
 /// Sharpest law of emission of lights whose fluence is kept on lattices.
-constexpr double SmoothestLaw = 2.0;
+constexpr double SmoothestLaw = 1.4;
 
 /// Cells that a plate lies in or touches have their centres within so many edges of it; above this
 /// optical depth it is the light itself that tells what it leaves there.

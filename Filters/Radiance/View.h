@@ -74,8 +74,8 @@ public:
   double Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
     Lanes& lanes) const;
 
-  /// Whether a point lies inside a solid: closed in by backs of surfaces on all sides, without
-  /// smoke and without light.
+  /// Whether a point lies inside a solid: closed in by backs of surfaces (and plates) on all sides,
+  /// without smoke and without light.
   bool InsideSolid(const Vec3& point) const;
 
 private:

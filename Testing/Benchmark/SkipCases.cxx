@@ -124,15 +124,15 @@ void SkipLight(ResultTable& table)
     const Scene scene(description);
     Compare(table, skip, name, [&](bool skips) { return result(scene, SolveWith(scene, skips)); });
   };
-  // There is no switch for it: the same with an albedo that makes no difference but has to be
-  // followed.
+  // There is no switch for it: the same with an albedo that makes no difference but is followed,
+  // both without the other skips.
   const Scene black(Corridor(0.3, 4, 0.0, 0.0));
   const Scene nearlyBlack(Corridor(0.3, 4, 1e-9, 0.0));
   Compare(table, "no scattering", "corridor of 60 m with black walls and soot of albedo 0",
     [&](bool skips)
     {
       const Scene& scene = skips ? black : nearlyBlack;
-      return Direct(scene, SolveWith(scene, true));
+      return Direct(scene, SolveWith(scene, false));
     });
   field("ways told", "corridor of 60 m with one lamp", Corridor(0.1, 1, 0.0, 0.0), Direct);
   SceneDescription lamps = Corridor(1.0, 15, 0.0, 0.0);

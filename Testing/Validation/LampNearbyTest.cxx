@@ -13,8 +13,8 @@ namespace
 using namespace smokevis;
 
 // A sign that only reflects, 0.4 m below a lamp: its cells share the indirect light that they
-// reflect, so that the contrast comes out too low, by 0.003 in clear or black smoke and by 0.010
-// between bright walls in smoke that scatters.
+// reflect, so that the contrast comes out too low, by 0.003 in black smoke and by 0.010 in smoke
+// that scatters.
 TEST(LampNearby, AboveASignThatReflects)
 {
   report::Head("Contrast of a sign that reflects, 0.4 m below a lamp");

@@ -7,6 +7,7 @@
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
+#include "WorkCount.h"
 
 #include <chrono>
 #include <cmath>
@@ -24,15 +25,7 @@ struct Outcome
   std::shared_ptr<const LightField> Field;
   double Seconds;
 
-  double Count(const std::string& what) const
-  {
-    double sum = 0.0;
-    for (const WorkItem& item : this->Field->Report)
-    {
-      sum += item.What.find(what) != std::string::npos ? item.Count : 0.0;
-    }
-    return sum;
-  }
+  double Count(const std::string& what) const { return WorkCount(this->Field->Report, what); }
 };
 
 Outcome Solve(const SceneDescription& description, bool skips, double tolerance = 0.1)
@@ -402,9 +395,8 @@ TEST(Skip, EqualBands)
     std::hypot(StandardError(one), StandardError(other)));
 }
 
-// A sign that only reflects, another in full light that is lost behind smoke, one without contrast:
-// places of a map keep their value where signs below a cut-off are left out by their bound, but for
-// those that lie below the cut-off.
+// A sign that only reflects, and another in full light that is lost behind smoke: places of a map
+// keep their value where signs are left out that lie below a cut-off, but for those that do so.
 TEST(Skip, SignsBelowTheCutOff)
 {
   SceneDescription scene = Corridor(0.25);
@@ -439,6 +431,8 @@ TEST(Skip, SignsBelowTheCutOff)
   int kept = 0;
   int left = 0;
   EXPECT_EQ(cut.Status, full.Status);
+  EXPECT_EQ(WorkCount(full.Report, "views of signs skipped", "cut-off"), 0.0);
+  EXPECT_GT(WorkCount(cut.Report, "views of signs skipped", "cut-off"), 3.0);
   for (std::size_t place = 0; place < full.Visibility.size(); ++place)
   {
     if (full.Visibility[place] >= options.CutOff)
@@ -454,6 +448,69 @@ TEST(Skip, SignsBelowTheCutOff)
   }
   EXPECT_GT(kept, 3);
   EXPECT_GT(left, 3);
+}
+
+// Signs that face away or stand behind a wall are not looked at: a map without a way to them is one
+// of the sign that is left, and what they light is there all the same.
+TEST(Skip, SignsOutOfView)
+{
+  SceneDescription scene = Corridor(0.25);
+  scene.Emitters.resize(4);
+  const auto add = [&scene](const Vec3& centre, const Vec3& normal, int id)
+  {
+    const auto cells = scenes::Barcode(centre, normal, {0, 0, 1}, 0.6, 0.3, 5, 50.0, id);
+    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
+  };
+  add({0.01, 2.0, 2.0}, {1, 0, 0}, 0);
+  add({1.0, 2.0, 2.6}, {-1, 0, 0}, 1);
+  scenes::AddRectangle(scene.Surfaces, {30, 0, 0}, {0, 4, 0}, {0, 0, 4}, 1, 1, 0.3);
+  add({40.0, 2.0, 2.0}, {-1, 0, 0}, 2);
+  const Outcome run = Solve(scene, true);
+  const View view(run.TheScene, run.Field);
+  FloorMapOptions options;
+  options.FirstPlace = {4.0, 1.0, 1.7};
+  options.StepX = 5.0;
+  options.StepY = 1.0;
+  options.PlacesX = 5;
+  options.PlacesY = 3;
+  Progress progress;
+  const FloorMap map = ComputeFloorMap(view, options, progress);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "faces away"), 15.0);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "hidden"), 15.0);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs computed"), 15.0);
+  for (int place = 0; place < 15; ++place)
+  {
+    const Vec3 eye =
+      options.FirstPlace + Vec3(options.StepX * (place % 5), options.StepY * (place / 5), 0.0);
+    const SignMeasurement seen = MeasureSign(view, 0, eye, Observer{});
+    EXPECT_FLOAT_EQ(map.PerceivedContrast[place * 3], static_cast<float>(seen.PerceivedContrast));
+    EXPECT_EQ(map.PerceivedContrast[place * 3 + 1], 0.0F);
+    EXPECT_EQ(map.PerceivedContrast[place * 3 + 2], 0.0F);
+    // What is not looked at would have shown nothing.
+    for (const int sign : {1, 2})
+    {
+      EXPECT_EQ(MeasureSign(view, sign, eye, Observer{}).VisibleFraction, 0.0) << place;
+    }
+  }
+}
+
+// Black smoke between black walls scatters nothing; smoke that scatters next to nothing, with all
+// of it followed, comes to the same.
+TEST(Skip, NoScattering)
+{
+  SceneDescription scene = Corridor(0.25);
+  scene.Albedo = 0.0;
+  const Outcome black = Solve(scene, true);
+  EXPECT_GT(black.Count("multiple scattering skipped"), 0.0);
+  scene.Albedo = 1e-9;
+  const Outcome followed = Solve(scene, false);
+  EXPECT_EQ(followed.Count("multiple scattering skipped"), 0.0);
+  EXPECT_LT(LargestChange(black, followed), 0.004);
+  for (std::size_t cell = 0; cell < black.Field->Cells; ++cell)
+  {
+    EXPECT_EQ(Mean(black.Field->MultipleFluence[cell]), 0.0F);
+    EXPECT_LT(Mean(followed.Field->MultipleFluence[cell]), 1e-6);
+  }
 }
 
 /// What a look at the first sign gives without a cut-off is what it gives with one below that.

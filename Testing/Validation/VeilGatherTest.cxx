@@ -5,6 +5,7 @@
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
+#include "WorkCount.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,14 +180,6 @@ TEST(VeilGather, UnitOfLengthPlaceAndBrightness)
   compare("brighter", bright, 1.0, Vec3(0.0), 3.7, 1e-5);
 }
 
-/// A row of a map's report.
-double Told(const FloorMap& map, const char* what)
-{
-  const auto row = std::find_if(map.Report.begin(), map.Report.end(),
-    [what](const WorkItem& item) { return item.What == what; });
-  return row == map.Report.end() ? std::nan("") : row->Count;
-}
-
 // A map of some places that gather, whichever thread measures which; or do not, where the eye's own
 // noise drowns the signs.
 TEST(VeilGather, MapHasSameBitsForAllThreads)
@@ -203,9 +196,9 @@ TEST(VeilGather, MapHasSameBitsForAllThreads)
   Progress progress;
   options.Threads = 1;
   const FloorMap one = ComputeFloorMap(*solved.TheView, options, progress);
-  const double gathered = Told(one, "views of signs gathered for");
+  const double gathered = WorkCount(one.Report, "views of signs gathered for");
   EXPECT_GT(gathered, 1.0);
-  EXPECT_EQ(Told(one, "views of signs not gathered for"), 0.0);
+  EXPECT_EQ(WorkCount(one.Report, "views of signs not gathered for"), 0.0);
   for (const int count : {2, 3})
   {
     options.Threads = count;
@@ -215,8 +208,8 @@ TEST(VeilGather, MapHasSameBitsForAllThreads)
   }
   options.Eye.DarkLuminance = 1.0;
   const FloorMap drowned = ComputeFloorMap(*solved.TheView, options, progress);
-  EXPECT_EQ(Told(drowned, "views of signs gathered for"), 0.0);
-  EXPECT_EQ(Told(drowned, "views of signs not gathered for"), gathered);
+  EXPECT_EQ(WorkCount(drowned.Report, "views of signs gathered for"), 0.0);
+  EXPECT_EQ(WorkCount(drowned.Report, "views of signs not gathered for"), gathered);
 }
 
 } // namespace
