@@ -24,7 +24,7 @@ constexpr int MostPieces = 8;
 /// A piece of a ray into a plate is cut so much closer to the plate: behind, the light follows the
 /// pattern.
 constexpr double Grading = 0.25;
-/// Length over height of such a last part up to which four points serve it wherever it ends.
+/// Length over height of such a last part up to which it is not halved, wherever it ends.
 constexpr double LongestSteep = 2.0;
 /// Parts of a piece of a ray are halved so often at most.
 constexpr int MostHalvings = 3;
@@ -40,7 +40,7 @@ struct PartLimit
   double Length, Angle, Depth;
 };
 constexpr PartLimit OnePointPart = {0.25, 0.15, 0.15};
-constexpr PartLimit TwoPointPart = {1.0, 0.8, 0.8};
+constexpr PartLimit TwoPointPart = {1.33, 0.8, 0.8};
 constexpr PartLimit FourPointPart = {2.0, 2.0, 1.0};
 
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
@@ -139,14 +139,14 @@ public:
     const double to = last < 0.0 ? plane : end;
     if (std::max(last, 0.0) >= Grading * first)
     {
-      this->ForEachOf(from, to, 1, MostHalvings, visit);
+      this->ForEachOf(from, to, MostHalvings, visit);
       return;
     }
     const double cut = std::min(at((1.0 - Grading) * first / (first - last)), to);
-    this->ForEachOf(from, cut, 1, MostHalvings, visit);
+    this->ForEachOf(from, cut, MostHalvings, visit);
     // A ray that runs along the plate may pass many edges there.
     const bool steep = to - cut <= LongestSteep * this->Height(cut);
-    this->ForEachOf(cut, to, FourPoints.Count, steep ? 0 : MostHalvings, visit);
+    this->ForEachOf(cut, to, steep ? 0 : MostHalvings, visit);
   }
 
 private:
@@ -156,8 +156,7 @@ private:
       this->Origin_ + distance * this->Direction_ - this->Light_.Centre, this->Light_.Normal);
   }
 
-  template <class Visit>
-  void ForEachOf(double begin, double end, int leastPoints, int halvings, Visit&& visit) const
+  template <class Visit> void ForEachOf(double begin, double end, int halvings, Visit&& visit) const
   {
     const double length = end - begin;
     const double middle = 0.5 * (begin + end);
@@ -172,13 +171,13 @@ private:
     };
     if (halvings > 0 && !within(FourPointPart))
     {
-      this->ForEachOf(begin, middle, leastPoints, halvings - 1, visit);
-      this->ForEachOf(middle, end, leastPoints, halvings - 1, visit);
+      this->ForEachOf(begin, middle, halvings - 1, visit);
+      this->ForEachOf(middle, end, halvings - 1, visit);
       return;
     }
-    const GaussRule& rule = leastPoints > 2 || !within(TwoPointPart) ? FourPoints
-                            : within(OnePointPart)                   ? OnePoint
-                                                                     : TwoPoints;
+    const GaussRule& rule = !within(TwoPointPart)  ? FourPoints
+                            : within(OnePointPart) ? OnePoint
+                                                   : TwoPoints;
     this->Places_.ForEach(rule, begin, end, visit);
   }
 

@@ -152,8 +152,8 @@ private:
   {
     /// Mean extinction along each, x fastest [1/m].
     std::vector<double> Extinction;
-    /// Whether the corners tell of the others: they are linear between them.
-    bool Told = false;
+    /// How many the corners tell of: they are linear between them.
+    std::size_t Told = 0;
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.
     double Share = 0.0;

@@ -18,9 +18,12 @@ namespace
 constexpr int SmallestBlock = 4;
 constexpr double WayTolerance = 0.004;
 constexpr double RoughWayTolerance = 0.5;
-/// Where that is measured: along a diagonal that winds around the block, and so passes through each
-/// layer of cells across each axis: a gap between layers of smoke may be one cell thick. Where it
-/// begins, as shares of the block's edges, and which way it runs.
+/// Half the optical depth of a cell off what the block's corners tell of it by so much is a sign of
+/// a duct or a post as small as the cell: its own way is walked, also that to a weak light.
+constexpr double OddCellDepth = 0.05;
+/// Where ways are looked at: along a diagonal that winds around the block, and so passes through
+/// each layer of cells across each axis: a gap between layers of smoke may be one cell thick. Where
+/// it begins, as shares of the block's edges, and which way it runs.
 constexpr std::array<double, 3> DiagonalBegin = {0.5, 0.25, 0.75};
 constexpr std::array<int, 3> DiagonalStep = {1, 1, -1};
 /// Share of the fluence of the other lights that all lights left out may add: single precision
@@ -149,54 +152,61 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
     return extinction;
   };
   std::array<double, 8> corners;
+  std::array<double, 8> smokeAt;
   // Solids hold no smoke, so that ways out of them do not tell of their neighbours.
-  ways.Told = std::max({block.Size[0], block.Size[1], block.Size[2]}) >= SmallestBlock;
-  for (int index = 0; index < 8 && ways.Told; ++index)
+  bool told = std::max({block.Size[0], block.Size[1], block.Size[2]}) >= SmallestBlock;
+  for (int index = 0; index < 8 && told; ++index)
   {
-    ways.Told = smoke.Extinction(smoke.Cell(block, corner(index))) > 0.0F ||
-                smoke.MaximumExtinction() == 0.0F;
-    corners[index] = ways.Told ? walk(corner(index)) : 0.0;
+    smokeAt[index] = smoke.Extinction(smoke.Cell(block, corner(index)));
+    told = smokeAt[index] > 0.0 || smoke.MaximumExtinction() == 0.0F;
+    corners[index] = told ? walk(corner(index)) : 0.0;
   }
-  if (ways.Told)
+  double allowed = 0.0;
+  if (told)
   {
     ways.Share = this->LargestShare(
       root, block, *std::min_element(corners.begin(), corners.end()), RoughWayTolerance, sums);
     // A weak light may be off by as much of the whole as the strongest; but the share is a bound
     // only where the corners do tell of what lies between.
-    const double allowed =
-      std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / ways.Share));
+    allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / ways.Share));
     const auto tells = [&](const std::array<int, 3>& place)
     {
-      const double told = Trilinear(corners, BlockShare(block, place));
+      const double interpolated = Trilinear(corners, BlockShare(block, place));
       const double way = glm::length(root.Centre - smoke.CellCentre(smoke.Cell(block, place)));
-      return std::abs(told - walk(place)) * way * this->Scene_.LargestScale() <= allowed;
+      return std::abs(interpolated - walk(place)) * way * this->Scene_.LargestScale() <= allowed;
     };
     const int layers = std::max({block.Size[0], block.Size[1], block.Size[2]});
-    for (int i = 0; i < layers && ways.Told; ++i)
+    for (int i = 0; i < layers && told; ++i)
     {
-      ways.Told = tells(PlaceOnDiagonal(block, i));
+      told = tells(PlaceOnDiagonal(block, i));
     }
   }
-  if (!ways.Told && !whole)
+  if (!told && !whole)
   {
     return std::nullopt;
   }
+  const double oddStep = std::min(allowed, OddCellDepth) /
+                         (0.5 * LargestEdge(size) * std::max(this->Scene_.LargestScale(), 1e-300));
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
-      if (ways.Told)
+      const Vec3 share = BlockShare(block, place);
+      const double own = smoke.Extinction(smoke.Cell(block, place));
+      if (told && std::abs(own - Trilinear(smokeAt, share)) <= oddStep)
       {
-        ways.Extinction[block.Number(place)] = Trilinear(corners, BlockShare(block, place));
+        ways.Extinction[block.Number(place)] = Trilinear(corners, share);
+        ++ways.Told;
       }
       else
       {
         walk(place);
       }
     });
-  if (!ways.Told)
+  if (ways.Told < block.Cells())
   {
-    ways.Share = this->LargestShare(
-      root, block, *std::min_element(ways.Extinction.begin(), ways.Extinction.end()), 0.0, sums);
+    ways.Share = this->LargestShare(root, block,
+      *std::min_element(ways.Extinction.begin(), ways.Extinction.end()),
+      ways.Told > 0 ? RoughWayTolerance : 0.0, sums);
   }
   return ways;
 }
@@ -256,12 +266,12 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
                : this->BoxFluence(
                    {light, false, ways->Extinction[block.Number(place)], ways->Share < WeakShare},
                    smoke.CellCentre(cell), smoke.CellSize(cell), 0);
-      work.Told += ways && ways->Told ? 1 : 0;
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sums[cell][band] += value[band];
       }
     });
+  work.Told = ways ? ways->Told : 0;
   return work;
 }
 

@@ -178,6 +178,40 @@ TEST(Skip, AnyClearLayer)
   }
 }
 
+// A duct of one cell by one cell runs clear through the smoke, whichever cells of a block it takes:
+// they see a lamp at its end as if there were no smoke.
+TEST(Skip, ADuctOfOneCell)
+{
+  report::Head("Light of a lamp through a duct of one cell by one, with ways told and without");
+  const Vec3 upper(12.0, 2.4, 2.4);
+  for (const auto& [row, layer] : {std::pair{9, 14}, {10, 8}, {13, 11}, {15, 15}})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.0;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 24, 24}, 2.0)};
+    for (int x = 0; x < 120; ++x)
+    {
+      scene.Grids[0].Extinction[x + 120 * (row + 24 * layer)] = 0.0F;
+    }
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, 0.0);
+    scene.Emitters = {scenes::Plate({0.01, 0.1 * row + 0.05, 0.1 * layer + 0.05}, {1, 0, 0},
+                        {0, 0, 1}, 0.08, 0.08, 1e5),
+      scenes::Plate({11.99, 1.2, 1.2}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.5, 100.0)};
+    const Outcome skipping = Solve(scene, true);
+    const Outcome all = Solve(scene, false);
+    double worst = 0.0;
+    for (int x = 0; x < 120; ++x)
+    {
+      const std::size_t cell = x + 120 * (row + 24 * layer);
+      worst = std::max(worst,
+        std::abs(skipping.Field->DirectFluence[cell] / all.Field->DirectFluence[cell] - 1.0));
+    }
+    EXPECT_GT(skipping.Count("not walked"), 1000.0);
+    report::Absolute(
+      "duct at row " + std::to_string(row) + ", layer " + std::to_string(layer), 0.0, worst, 0.005);
+  }
+}
+
 // Rays that leap over clear air meet the same smoke at the same distances: the light field and what
 // is seen in it are the same to the bit. A layer under the ceiling, a wall that cuts cells, and a
 // clear passage through the smoke.
