@@ -179,17 +179,19 @@ TEST(Skip, AnyClearLayer)
 }
 
 // A duct of one cell by one cell runs clear through the smoke, whichever cells of a block it takes:
-// they see a lamp at its end as if there were no smoke.
+// they see a lamp before it through next to no smoke.
 TEST(Skip, ADuctOfOneCell)
 {
   report::Head("Light of a lamp through a duct of one cell by one, with ways told and without");
   const Vec3 upper(12.0, 2.4, 2.4);
+  // So far from the lamp that ways to cells beside the duct do not pass through it.
+  constexpr int DuctBegin = 30;
   for (const auto& [row, layer] : {std::pair{9, 14}, {10, 8}, {13, 11}, {15, 15}})
   {
     SceneDescription scene;
     scene.Albedo = 0.0;
     scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 24, 24}, 2.0)};
-    for (int x = 0; x < 120; ++x)
+    for (int x = DuctBegin; x < 120; ++x)
     {
       scene.Grids[0].Extinction[x + 120 * (row + 24 * layer)] = 0.0F;
     }
@@ -200,7 +202,7 @@ TEST(Skip, ADuctOfOneCell)
     const Outcome skipping = Solve(scene, true);
     const Outcome all = Solve(scene, false);
     double worst = 0.0;
-    for (int x = 0; x < 120; ++x)
+    for (int x = DuctBegin; x < 120; ++x)
     {
       const std::size_t cell = x + 120 * (row + 24 * layer);
       worst = std::max(worst,
