@@ -29,11 +29,11 @@ constexpr double LongestSteep = 2.0;
 /// Parts of a piece of a ray are halved so often at most.
 constexpr int MostHalvings = 3;
 /// Largest parts that Gauss points of some number serve: their length over the distance from the
-/// plate's edges, or, so many radii away from the light, the angle that they span there; and their
-/// optical depth. Close to the light its fluence is smooth but at the edges (it follows a solid
-/// angle, a harmonic function): the error of n points goes with rho^-2n of the Bernstein ellipse
-/// through the nearest edge (Trefethen 2013), 1e-3 for four points beside it. Far away the rules'
-/// errors are angle^2 / 24 and angle^4 / 4320.
+/// plate's edges, or, so many radii away from the light and one from its edges, the angle that they
+/// span there; and their optical depth. Close to the light its fluence is smooth but at the edges
+/// (it follows a solid angle, a harmonic function): the error of n points goes with rho^-2n of the
+/// Bernstein ellipse through the nearest edge (Trefethen 2013), 1e-3 for four points beside it. Far
+/// away the rules' errors are angle^2 / 24 and angle^4 / 4320.
 constexpr double FarRadii = 1.5;
 struct PartLimit
 {
@@ -119,7 +119,7 @@ public:
   LightQuadrature(
     const LightGroup& light, const Vec3& origin, const Vec3& direction, double extinction)
       : Light_(light), Origin_(origin), Direction_(direction), Extinction_(extinction),
-        Sharpness_(light.Law.LeafSharpness()), Places_(light, origin, direction)
+        Sharpness_(light.Law.Sharpness()), Places_(light, origin, direction)
   {
   }
 
@@ -160,9 +160,10 @@ private:
   {
     const double length = end - begin;
     const double middle = 0.5 * (begin + end);
-    const bool far = this->Places_.Beyond(FarRadii * this->Light_.Radius, begin, end);
-    const double unit =
-      far ? 1.0 : this->Light_.EdgeDistance(this->Origin_ + middle * this->Direction_);
+    const double edges = this->Light_.EdgeDistance(this->Origin_ + middle * this->Direction_);
+    const bool far = edges >= this->Light_.Radius &&
+                     this->Places_.Beyond(FarRadii * this->Light_.Radius, begin, end);
+    const double unit = far ? 1.0 : edges;
     const double size = far ? this->Places_.Angle(end) - this->Places_.Angle(begin) : length;
     const auto within = [&](const PartLimit& limit)
     {

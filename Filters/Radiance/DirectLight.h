@@ -152,7 +152,7 @@ private:
   {
     /// Mean extinction along each, x fastest [1/m].
     std::vector<double> Extinction;
-    /// How many the corners tell of: they are linear between them.
+    /// How many were not walked, for the corners tell of them: they are linear between them.
     std::size_t Told = 0;
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.

@@ -18,9 +18,10 @@ namespace
 constexpr int SmallestBlock = 4;
 constexpr double WayTolerance = 0.004;
 constexpr double RoughWayTolerance = 0.5;
-/// Half the optical depth of a cell off what the block's corners tell of it by so much is a sign of
-/// a duct or a post as small as the cell: its own way is walked, also that to a weak light.
-constexpr double OddCellDepth = 0.05;
+/// A cell whose own smoke is off what the block's corners tell of it may lie in a duct or a post as
+/// small as itself: its own way is walked where so many cells like it would make more of an error
+/// than is allowed, and half of it more than the least.
+constexpr double OddCells = 16.0;
 /// Where ways are looked at: along a diagonal that winds around the block, and so passes through
 /// each layer of cells across each axis: a gap between layers of smoke may be one cell thick. Where
 /// it begins, as shares of the block's edges, and which way it runs.
@@ -185,28 +186,31 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   {
     return std::nullopt;
   }
-  const double oddStep = std::min(allowed, OddCellDepth) /
-                         (0.5 * LargestEdge(size) * std::max(this->Scene_.LargestScale(), 1e-300));
+  const double oddStep = std::max(2.0 * WayTolerance, allowed / OddCells) /
+                         (LargestEdge(size) * std::max(this->Scene_.LargestScale(), 1e-300));
+  bool odd = false;
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
+      const std::int64_t cell = smoke.Cell(block, place);
       const Vec3 share = BlockShare(block, place);
-      const double own = smoke.Extinction(smoke.Cell(block, place));
-      if (told && std::abs(own - Trilinear(smokeAt, share)) <= oddStep)
+      if (told && std::abs(smoke.Extinction(cell) - Trilinear(smokeAt, share)) <= oddStep)
       {
-        ways.Extinction[block.Number(place)] = Trilinear(corners, share);
-        ++ways.Told;
+        double& extinction = ways.Extinction[block.Number(place)];
+        ways.Told += std::isnan(extinction) && !smoke.Parts().Find(cell) ? 1 : 0;
+        extinction = Trilinear(corners, share);
       }
       else
       {
         walk(place);
+        odd = true;
       }
     });
-  if (ways.Told < block.Cells())
+  if (odd)
   {
     ways.Share = this->LargestShare(root, block,
       *std::min_element(ways.Extinction.begin(), ways.Extinction.end()),
-      ways.Told > 0 ? RoughWayTolerance : 0.0, sums);
+      told ? RoughWayTolerance : 0.0, sums);
   }
   return ways;
 }

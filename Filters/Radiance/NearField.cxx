@@ -25,7 +25,8 @@ constexpr int GradedSteps = 10;
 /// How many times as many steps a light takes that is not Lambertian: what is left of it over that
 /// of an even plate falls off with the angle.
 constexpr int LawSteps = 2;
-/// A level has no more steps than this along one side of the plate.
+/// The innermost level has no more steps than this along one side of the plate, unless light is
+/// asked for no farther than that.
 constexpr double MostStepsAcross = 96.0;
 /// Nodes in the plane of the plate are taken this share of the step in front of it.
 constexpr double Lift = 1e-4;

@@ -222,7 +222,11 @@ public:
     double veil = 0.0;
     for (const Segment& piece : pieces)
     {
-      EXPECT_TRUE(this->Inside_.Near(piece.Cell));
+      if (!this->Inside_.Near(piece.Cell))
+      {
+        ADD_FAILURE() << "the lamp is not near to cell " << piece.Cell;
+        return 0.0;
+      }
       veil += std::exp(-Thin * piece.Begin) * this->Inside_.NearVeil(piece.Cell, origin, direction,
                                                 piece.Begin, piece.End, Thin, 0);
     }
@@ -318,6 +322,21 @@ TEST(DirectField, VeilOfRaysThatGrazeATube)
         EXPECT_NEAR(lamp.VeilOverSum(origin, direction, 0.6), 1.0, 0.03)
           << cells << ' ' << slope << ' ' << place;
       }
+    }
+  }
+}
+
+// Rays that pass a tube beyond its end.
+TEST(DirectField, VeilBeyondATubesEnd)
+{
+  const LampAlone lamp(Tube, 0.0, 6);
+  for (const double height : {0.02, 0.05, 0.1})
+  {
+    for (const double beyond : {0.05, 0.15, 0.31})
+    {
+      const Vec3 direction = glm::normalize(Vec3(0.1, 1.0, 0.0));
+      const Vec3 origin = Vec3(2.6 + beyond, 2.0, 2.0 - height) - 0.7 * direction;
+      EXPECT_NEAR(lamp.VeilOverSum(origin, direction, 1.4), 1.0, 0.02) << height << ' ' << beyond;
     }
   }
 }

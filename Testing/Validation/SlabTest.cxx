@@ -140,7 +140,7 @@ TEST(Slab, ThickLong)
 
 // To the end of the table: 321 layers of a tenth of a mean free path, through which 2 % to nothing
 // of the light comes. Where much of it is scattered often, that much is not known: of 32 values 12
-// were not, those through 32 mean free paths from an albedo of 0.8 on, and conservative ones.
+// were not, of slabs of 32 mean free paths from an albedo of 0.8 on and of 16 from 0.99 on.
 TEST(Slab, ThickestLong)
 {
   CheckRows(16.0, 32.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0}, 0, 0.01, 14);
