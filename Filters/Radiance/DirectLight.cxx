@@ -43,7 +43,7 @@ constexpr int ShadowEdge = 6;
 
 int SplitsOf(const EmissionLaw& law)
 {
-  return law == EmissionLaw() ? LeafSplits : SteepLeafSplits;
+  return law.Lambertian() ? LeafSplits : SteepLeafSplits;
 }
 
 LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double v1)
@@ -211,8 +211,7 @@ void DirectLight::AddLeaf(
   const Vec3& point = receiver.Point;
   const std::array<Vec3, 4>& corners = leaf.Corners;
   const double closed = receiver.Normal ? ProjectedSolidAngle(point, *receiver.Normal, corners)
-                                        : SolidAngle(point, corners[0], corners[1], corners[2]) +
-                                            SolidAngle(point, corners[0], corners[2], corners[3]);
+                                        : SolidAngle(point, corners);
   // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
   const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 namespace smokevis
@@ -177,31 +176,9 @@ Vec3 NearField::FromPlate(const Vec3& place) const
          place.z * this->Axes_[2];
 }
 
-double NearField::PlateAngle(const Vec3& place) const
+double NearField::PlateAngle(const Vec3& point) const
 {
-  const LightGroup& root = this->Scene_.Lights().Root(this->Light_);
-  if (root.FirstChild < 0)
-  {
-    const Vec3 point = this->FromPlate(place);
-    const std::array<Vec3, 4>& corners = root.Corners;
-    return SolidAngle(point, corners[0], corners[1], corners[2]) +
-           SolidAngle(point, corners[0], corners[2], corners[3]);
-  }
-  // Sum over the corners of atan(x y / (z r)), with signs (Gossman et al. for an off-axis
-  // rectangle). Two sums of two arctangents each are joined.
-  const double z = place.z;
-  double angle = 0.0;
-  for (const double sideX : {-1.0, 1.0})
-  {
-    const double x = sideX * this->Half_[0] - place.x;
-    // Real and imaginary parts of what has the two arctangents for its argument, without a factor.
-    const auto corner = [&](double y)
-    { return std::complex<double>(z * std::sqrt(x * x + y * y + z * z), x * y); };
-    const std::complex<double> sum =
-      corner(this->Half_[1] - place.y) * std::conj(corner(-this->Half_[1] - place.y));
-    angle += sideX * std::arg(sum);
-  }
-  return angle;
+  return SolidAngle(point, this->Scene_.Lights().Root(this->Light_).Corners);
 }
 
 double NearField::EvenDepth(const Vec3& place, int band) const
@@ -226,8 +203,9 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
     place[axis] = level.Place(axis, node[axis]);
   }
   place.z = std::max(place.z, Lift * level.Step[2]);
-  const Spectrum fluence = this->Direct_.Fluence(this->Light_, this->FromPlate(place), true);
-  const double angle = this->PlateAngle(place);
+  const Vec3 point = this->FromPlate(place);
+  const Spectrum fluence = this->Direct_.Fluence(this->Light_, point, true);
+  const double angle = this->PlateAngle(point);
   for (int each = 0; each < this->Scene_.Bands(); ++each)
   {
     const double value = fluence[each] > 0.0 && angle > 0.0
@@ -264,7 +242,7 @@ double NearField::Fluence(const Vec3& point, int band) const
     return this->Direct_.Fluence(this->Light_, point, true)[band];
   }
   const Level& level = **found;
-  const double even = this->PlateAngle(place);
+  const double even = this->PlateAngle(point);
   if (found != this->Levels_.begin())
   {
     const double logarithm = this->Quadratic(level, place, band);

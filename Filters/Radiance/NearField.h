@@ -47,8 +47,8 @@ private:
   Vec3 FromPlate(const Vec3& place) const;
   /// How far a place before the plate is from the plate, as boxes are [m].
   double Away(const Vec3& place) const;
-  /// Solid angle at a place in front of the plate of the plate's rectangle, or of a single leaf.
-  double PlateAngle(const Vec3& place) const;
+  /// Solid angle of the plate's rectangle, or of a single leaf.
+  double PlateAngle(const Vec3& point) const;
   /// Optical depth of even smoke between a place and the plate [-].
   double EvenDepth(const Vec3& place, int band) const;
 

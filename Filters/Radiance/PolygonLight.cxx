@@ -19,6 +19,12 @@ double SolidAngle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c
   return above == 0.0 && below == 0.0 ? 0.0 : 2.0 * std::atan2(above, below);
 }
 
+double SolidAngle(const Vec3& point, const std::array<Vec3, 4>& corners)
+{
+  return SolidAngle(point, corners[0], corners[1], corners[2]) +
+         SolidAngle(point, corners[0], corners[2], corners[3]);
+}
+
 double ProjectedSolidAngle(
   const Vec3& point, const Vec3& normal, const std::array<Vec3, 4>& corners)
 {

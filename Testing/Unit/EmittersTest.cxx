@@ -305,12 +305,11 @@ TEST(PolygonLight, SolidAngle)
   const Vec3 c(1, 1, 1);
   const Vec3 d(-1, 1, 1);
   const Vec3 point(0.0);
-  EXPECT_NEAR(SolidAngle(point, a, b, c) + SolidAngle(point, a, c, d), 4.0 * Pi / 6.0, 1e-12);
+  EXPECT_NEAR(SolidAngle(point, {a, b, c, d}), 4.0 * Pi / 6.0, 1e-12);
   // Right at a large polygon: half of the sphere. In its plane beside it: nothing.
   const Vec3 wide(100, 100, 1);
   const Vec3 close(0.1, 0.2, 1 - 1e-9);
-  const double near = SolidAngle(close, wide * a, wide * b, wide * c) +
-                      SolidAngle(close, wide * a, wide * c, wide * d);
+  const double near = SolidAngle(close, {wide * a, wide * b, wide * c, wide * d});
   EXPECT_NEAR(near, 2.0 * Pi, 1e-6);
   EXPECT_NEAR(SolidAngle({5, 5, 1}, a, b, c), 0.0, 1e-12);
 }
