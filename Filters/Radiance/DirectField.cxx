@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/blocked_range.h>
@@ -176,7 +177,8 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
   {
     const LightGroup& root = this->Scene_.Lights().Root(near.Index);
     const NearField* field = this->Lights_->Field(near.Index);
-    LightQuadrature(root, origin, direction, extinction)
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    LightQuadrature(root, field ? field->PatternLength() : infinity, origin, direction, extinction)
       .ForEach(begin, end,
         [&](double distance, double step)
         {

@@ -82,10 +82,12 @@ private:
 class LightQuadrature
 {
 public:
-  LightQuadrature(
-    const LightGroup& light, const Vec3& origin, const Vec3& direction, double extinction)
-      : Light_(light), Origin_(origin), Direction_(direction), Extinction_(extinction),
-        Sharpness_(light.Law.Sharpness()), Places_(light, origin, direction)
+  /// @param pattern length over which the light changes right before the plate [m]
+  LightQuadrature(const LightGroup& light, double pattern, const Vec3& origin,
+    const Vec3& direction, double extinction)
+      : Light_(light), Pattern_(pattern), Origin_(origin), Direction_(direction),
+        Extinction_(extinction), Sharpness_(light.Law.Sharpness()),
+        Places_(light, origin, direction)
   {
   }
 
@@ -121,6 +123,9 @@ private:
   static constexpr double Grading = 0.25;
   /// Length over height of such a last part up to which it is not halved, wherever it ends.
   static constexpr double LongestSteep = 2.0;
+  /// So many times its height before the plate a place counts as far from the edges of the pattern,
+  /// and no nearer than a part of the pattern is long.
+  static constexpr double PatternHeights = 2.0;
   /// Parts of a piece of a ray are halved so often at most.
   static constexpr int MostHalvings = 3;
   /// Largest parts that Gauss points of some number serve: their length over the distance from the
@@ -148,7 +153,9 @@ private:
   {
     const double length = end - begin;
     const double middle = 0.5 * (begin + end);
-    const double edges = this->Light_.EdgeDistance(this->Origin_ + middle * this->Direction_);
+    const double edges =
+      std::min(this->Light_.EdgeDistance(this->Origin_ + middle * this->Direction_),
+        std::max(this->Pattern_, PatternHeights * this->Height(middle)));
     const bool far = edges >= this->Light_.Radius &&
                      this->Places_.Beyond(FarRadii * this->Light_.Radius, begin, end);
     const double unit = far ? 1.0 : edges;
@@ -171,6 +178,7 @@ private:
   }
 
   const LightGroup& Light_;
+  double Pattern_;
   Vec3 Origin_, Direction_;
   double Extinction_;
   /// How fast the light changes with the angle, 1 or more.

@@ -123,8 +123,12 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
 
   const int finer = root.Law.Lambertian() ? 1 : LawSteps;
   // The innermost level follows the plate's pattern.
-  double first =
-    std::max(FinestEdge(lights, root), finer * InnermostSteps * longest / MostStepsAcross);
+  const double finest = FinestEdge(lights, root);
+  if (root.FirstChild >= 0)
+  {
+    this->PatternLength_ = finest;
+  }
+  double first = std::max(finest, finer * InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {

@@ -4,6 +4,7 @@
 #include "DirectLight.h"
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,9 @@ public:
   /// the plate's pattern more closely than the lattice does.
   bool Smooth(const Vec3& point) const;
 
+  /// Length over which the light changes right before the plate [m]: infinite for a single leaf.
+  double PatternLength() const { return this->PatternLength_; }
+
 private:
   struct Level;
 
@@ -59,6 +63,7 @@ private:
   std::array<Vec3, 3> Axes_;
   /// Half the plate's edges.
   std::array<double, 2> Half_{};
+  double PatternLength_ = std::numeric_limits<double>::infinity();
   /// Extinction at the plate, at 633 nm [1/m].
   double Extinction_ = 0.0;
   std::vector<std::unique_ptr<Level>> Levels_;

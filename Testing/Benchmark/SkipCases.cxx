@@ -93,25 +93,16 @@ Values Multiple(const LightField& field, int band)
   return {sum};
 }
 
-/// A corridor of 60 x 4 x 4 m with lamps along its ceiling and smoke that is thinnest on the floor,
-/// where it has half of the given extinction, and thickest under the ceiling.
+/// A corridor with smoke that is thinnest on the floor, where it has half of the given extinction,
+/// and thickest under the ceiling.
 SceneDescription Corridor(double extinction, int lamps, double albedo, double reflectance)
 {
-  SceneDescription scene;
-  scene.Albedo = albedo;
-  const Vec3 upper(60, 4, 4);
-  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 8, 8}, extinction)};
+  SceneDescription scene = scenes::Corridor(extinction, lamps, albedo, reflectance);
   std::vector<float>& values = scene.Grids[0].Extinction;
   for (std::size_t cell = 0; cell < values.size(); ++cell)
   {
     const std::size_t layer = cell / (120 * 8);
     values[cell] *= static_cast<float>(0.5 + static_cast<double>(layer) / 7.0);
-  }
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, reflectance);
-  for (int lamp = 0; lamp < lamps; ++lamp)
-  {
-    const Vec3 centre(60.0 * (lamp + 0.5) / lamps, 2.0, 3.99);
-    scene.Emitters.push_back(scenes::Plate(centre, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.0));
   }
   return scene;
 }

@@ -17,21 +17,28 @@ using namespace smokevis;
 
 constexpr double Extinction = 2.0;
 
+/// Even smoke in a box from the origin on.
+SmokeGrid EvenSmoke(const Vec3& upper, int cells, double extinction)
+{
+  SmokeGrid grid;
+  grid.Name = "even";
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i <= cells; ++i)
+    {
+      grid.Nodes[axis].push_back(upper[axis] * i / cells);
+    }
+  }
+  grid.Extinction.assign(cells * cells * cells, static_cast<float>(extinction));
+  return grid;
+}
+
 /// A sign of five lit bars, 0.5 m x 0.25 m, at the end of a box of even smoke.
 SceneDescription Barred(int bars)
 {
   SceneDescription scene;
   scene.Albedo = 0.5;
-  SmokeGrid grid;
-  grid.Name = "even";
-  for (int i = 0; i <= 12; ++i)
-  {
-    grid.Nodes[0].push_back(2.0 * i / 12);
-    grid.Nodes[1].push_back(2.0 * i / 12);
-    grid.Nodes[2].push_back(2.0 * i / 12);
-  }
-  grid.Extinction.assign(12 * 12 * 12, static_cast<float>(Extinction));
-  scene.Grids = {grid};
+  scene.Grids = {EvenSmoke(Vec3(2.0), 12, Extinction)};
   for (int bar = 0; bar < bars; bar += 2)
   {
     const double low = 0.75 + 0.5 * bar / bars;
@@ -169,52 +176,17 @@ TEST_F(DirectFieldTest, VeilBeforeThePlate)
   EXPECT_GT(varying, 0);
 }
 
-// The veil before an unlit bar on the whole way from 0.55 m, the last cell in one piece, against
-// 4000 points: the lattice's own 0.5 %.
-TEST(DirectField, VeilBeforeAWideUnlitBar)
-{
-  const SceneDescription description = Barred(5);
-  const Scene scene(description);
-  LightFieldOptions options;
-  options.Tolerance = 0.5;
-  Progress progress;
-  const LightField field = SolveLightField(scene, options, progress);
-  const DirectField inside(scene, field);
-  const DirectLight direct(scene);
-  const Vec3 target(2.0, 0.9, 1.0);
-  const Vec3 origin(1.45, 0.93, 1.03);
-  const Vec3 direction = glm::normalize(target - origin);
-  const double length = glm::length(target - origin);
-  std::vector<Segment> pieces;
-  scene.Smoke().Walk(origin, direction, 0.0, length, pieces);
-  double veil = 0.0;
-  for (const Segment& piece : pieces)
-  {
-    veil += std::exp(-Extinction * piece.Begin) *
-            inside.NearVeil(piece.Cell, origin, direction, piece.Begin, piece.End, Extinction, 0);
-  }
-  constexpr int Steps = 2000;
-  double expected = 0.0;
-  for (int i = 0; i < Steps; ++i)
-  {
-    const double way = (i + 0.5) / Steps * length;
-    expected += direct.Fluence(0, origin + way * direction, true)[0] * std::exp(-Extinction * way);
-  }
-  expected *= Extinction * length / Steps * description.Albedo / (4.0 * 3.141592653589793);
-  EXPECT_NEAR(veil / expected, 1.0, 0.005);
-}
-
-/// A plate alone in thin smoke, in cells of some number along each 4 m, with its direct light.
-class LampAlone
+/// The only light in even smoke, with its direct light.
+class LightAlone
 {
 public:
-  LampAlone(const std::vector<Vec3>& plate, double exponent, int cells)
-      : TheScene_(Describe(plate, exponent, cells)), Field_(Solve(TheScene_)),
-        Inside_(TheScene_, Field_), Direct_(TheScene_)
+  explicit LightAlone(const SceneDescription& description)
+      : TheScene_(description), Field_(Solve(TheScene_)), Inside_(TheScene_, Field_),
+        Direct_(TheScene_), Extinction_(description.Grids[0].Extinction[0])
   {
   }
 
-  /// What the smoke along a ray sends back of the lamp's light, over the same from 2000 places.
+  /// What the smoke along a ray sends back of the light, over the same from 2000 places.
   double VeilOverSum(const Vec3& origin, const Vec3& direction, double length) const
   {
     std::vector<Segment> pieces;
@@ -224,47 +196,26 @@ public:
     {
       if (!this->Inside_.Near(piece.Cell))
       {
-        ADD_FAILURE() << "the lamp is not near to cell " << piece.Cell;
+        ADD_FAILURE() << "the light is not near to cell " << piece.Cell;
         return 0.0;
       }
-      veil += std::exp(-Thin * piece.Begin) * this->Inside_.NearVeil(piece.Cell, origin, direction,
-                                                piece.Begin, piece.End, Thin, 0);
+      veil += std::exp(-this->Extinction_ * piece.Begin) * this->Inside_.NearVeil(piece.Cell,
+                                                             origin, direction, piece.Begin,
+                                                             piece.End, this->Extinction_, 0);
     }
     constexpr int Steps = 2000;
     double expected = 0.0;
     for (int i = 0; i < Steps; ++i)
     {
       const double way = (i + 0.5) / Steps * length;
-      expected += this->Direct_.Fluence(0, origin + way * direction)[0] * std::exp(-Thin * way);
+      expected +=
+        this->Direct_.Fluence(0, origin + way * direction)[0] * std::exp(-this->Extinction_ * way);
     }
-    return veil / (expected * Thin * length / Steps * Albedo / (4.0 * 3.141592653589793));
+    return veil / (expected * this->Extinction_ * length / Steps * this->TheScene_.Albedo() /
+                    (4.0 * 3.141592653589793));
   }
 
 private:
-  static constexpr double Thin = 0.3;
-  static constexpr double Albedo = 0.5;
-
-  static SceneDescription Describe(const std::vector<Vec3>& plate, double exponent, int cells)
-  {
-    SceneDescription description;
-    description.Albedo = Albedo;
-    SmokeGrid grid;
-    for (auto& nodes : grid.Nodes)
-    {
-      for (int i = 0; i <= cells; ++i)
-      {
-        nodes.push_back(4.0 * i / cells);
-      }
-    }
-    grid.Extinction.assign(cells * cells * cells, static_cast<float>(Thin));
-    description.Grids = {grid};
-    EmitterCell lamp;
-    lamp.Vertices = plate;
-    lamp.Luminance.fill(1000.0);
-    lamp.Exponent = exponent;
-    description.Emitters = {lamp};
-    return description;
-  }
   static LightField Solve(const Scene& scene)
   {
     LightFieldOptions options;
@@ -277,7 +228,32 @@ private:
   LightField Field_;
   DirectField Inside_;
   DirectLight Direct_;
+  double Extinction_;
 };
+
+/// A plate in thin smoke, in so many cells along each 4 m.
+SceneDescription ThinSmokeWith(const std::vector<Vec3>& plate, double exponent, int cells)
+{
+  SceneDescription description;
+  description.Albedo = 0.5;
+  description.Grids = {EvenSmoke(Vec3(4.0), cells, 0.3)};
+  EmitterCell lamp;
+  lamp.Vertices = plate;
+  lamp.Luminance.fill(1000.0);
+  lamp.Exponent = exponent;
+  description.Emitters = {lamp};
+  return description;
+}
+
+// The veil before an unlit bar on the whole way from 0.55 m, the last cell in one piece: the
+// lattice's own 0.5 %.
+TEST(DirectField, VeilBeforeAWideUnlitBar)
+{
+  const Vec3 origin(1.45, 0.93, 1.03);
+  const Vec3 way = Vec3(2.0, 0.9, 1.0) - origin;
+  const LightAlone sign(Barred(5));
+  EXPECT_NEAR(sign.VeilOverSum(origin, glm::normalize(way), glm::length(way)), 1.0, 0.005);
+}
 
 const std::vector<Vec3> Tube = {{1.4, 1.93, 2}, {1.4, 2.08, 2}, {2.6, 2.08, 2}, {2.6, 1.93, 2}};
 
@@ -290,7 +266,7 @@ TEST(DirectField, VeilBesideLampsOfAnyShape)
     for (const auto& plate : {Tube, {{1.5, 1.6, 2}, {1.62, 2.6, 2}, {1.88, 2.6, 2}},
            {{1.6, 1.6, 2}, {1.6, 2.4, 2}, {2.4, 2.4, 2}, {2.4, 1.6, 2}}})
     {
-      const LampAlone lamp(plate, 0.0, cells);
+      const LightAlone lamp(ThinSmokeWith(plate, 0.0, cells));
       for (const auto& [height, slope] : {std::pair{0.01, 0.0}, {0.04, 0.0}, {0.1, 0.0}, {0.4, 0.0},
              {0.02, 0.05}, {0.1, 0.3}, {0.2, 0.6}})
       {
@@ -312,7 +288,7 @@ TEST(DirectField, VeilOfRaysThatGrazeATube)
 {
   for (const int cells : {8, 16})
   {
-    const LampAlone lamp(Tube, 0.0, cells);
+    const LightAlone lamp(ThinSmokeWith(Tube, 0.0, cells));
     for (const double slope : {0.02, 0.1, 0.3})
     {
       for (const double place : {1.88, 1.95, 2.03, 2.1, 2.14})
@@ -329,7 +305,7 @@ TEST(DirectField, VeilOfRaysThatGrazeATube)
 // Rays that pass a tube beyond its end.
 TEST(DirectField, VeilBeyondATubesEnd)
 {
-  const LampAlone lamp(Tube, 0.0, 6);
+  const LightAlone lamp(ThinSmokeWith(Tube, 0.0, 6));
   for (const double height : {0.02, 0.05, 0.1})
   {
     for (const double beyond : {0.05, 0.15, 0.31})
@@ -341,12 +317,44 @@ TEST(DirectField, VeilBeyondATubesEnd)
   }
 }
 
+// Rays along a wide panel of bars, across which the light varies within the pieces of a ray: 2 %
+// from a bar's width on, 10 % closer to it.
+TEST(DirectField, VeilAlongAPanelOfBars)
+{
+  for (const int cells : {4, 8, 16})
+  {
+    SceneDescription description = ThinSmokeWith(Tube, 0.0, cells);
+    description.Emitters.clear();
+    for (int bar = 0; bar < 20; bar += 2)
+    {
+      EmitterCell cell;
+      const double low = 1.0 + 0.1 * bar;
+      cell.Vertices = {{low, 1.5, 2}, {low, 2.5, 2}, {low + 0.1, 2.5, 2}, {low + 0.1, 1.5, 2}};
+      cell.Luminance.fill(1000.0);
+      cell.SignId = 0;
+      description.Emitters.push_back(cell);
+    }
+    const LightAlone panel(description);
+    for (const double height : {0.02, 0.05, 0.1, 0.2})
+    {
+      for (const double turn : {0.05, 0.4, 0.8})
+      {
+        const Vec3 direction(std::cos(turn), std::sin(turn), 0.0);
+        const Vec3 origin = Vec3(2.03, 2.01, 2.0 - height) - 0.55 * direction;
+        EXPECT_NEAR(panel.VeilOverSum(origin, direction, 1.1), 1.0, height < 0.1 ? 0.1 : 0.02)
+          << cells << ' ' << height << ' ' << turn;
+      }
+    }
+  }
+}
+
 // Lamps with beams, close to them and below.
 TEST(DirectField, VeilUnderBeams)
 {
   for (const double exponent : {1.0, 3.0, 8.0, 30.0})
   {
-    const LampAlone lamp({{2, 2, 3.3}, {2, 2.1, 3.3}, {2.1, 2.1, 3.3}, {2.1, 2, 3.3}}, exponent, 8);
+    const LightAlone lamp(
+      ThinSmokeWith({{2, 2, 3.3}, {2, 2.1, 3.3}, {2.1, 2.1, 3.3}, {2.1, 2, 3.3}}, exponent, 8));
     for (const double height : {0.05, 0.2, 0.5, 0.9})
     {
       const Vec3 direction = glm::normalize(Vec3(1.0, 0.3, 0.1));
@@ -425,15 +433,7 @@ SceneDescription Lamp(double exponent, double extinction)
 {
   SceneDescription scene;
   scene.Albedo = 0.9;
-  SmokeGrid grid;
-  for (int i = 0; i <= 16; ++i)
-  {
-    grid.Nodes[0].push_back(0.25 * i);
-    grid.Nodes[1].push_back(0.25 * i);
-    grid.Nodes[2].push_back(3.0 / 16 * i);
-  }
-  grid.Extinction.assign(16 * 16 * 16, static_cast<float>(extinction));
-  scene.Grids = {grid};
+  scene.Grids = {EvenSmoke({4, 4, 3}, 16, extinction)};
   EmitterCell cell;
   cell.Vertices = {{1.7, 1.4, 3}, {1.7, 2.6, 3}, {2.3, 2.6, 3}, {2.3, 1.4, 3}};
   cell.Luminance.fill(1000.0);

@@ -178,6 +178,21 @@ EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double
   return cell;
 }
 
+SceneDescription Corridor(double extinction, int lamps, double albedo, double reflectance)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 upper(60, 4, 4);
+  scene.Grids = {UniformSmoke(Vec3(0.0), upper, {120, 8, 8}, extinction)};
+  AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, reflectance);
+  for (int lamp = 0; lamp < lamps; ++lamp)
+  {
+    const Vec3 centre(60.0 * (lamp + 0.5) / lamps, 2.0, 3.99);
+    scene.Emitters.push_back(Plate(centre, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.0));
+  }
+  return scene;
+}
+
 //--------------------------------------------------------------------------------------------------
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance)

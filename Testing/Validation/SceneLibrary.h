@@ -42,6 +42,10 @@ std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node)
 EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double width,
   double height, double luminance, double reflectance = 0.0, int signId = -1);
 
+/// A corridor of 60 x 4 x 4 m full of smoke, with lamps of one strength along its ceiling.
+SceneDescription Corridor(
+  double extinction, int lamps = 15, double albedo = 0.5, double reflectance = 0.0);
+
 /// A sign of vertical stripes of equal width, every other one lit, beginning with a lit one.
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance = 0.0);

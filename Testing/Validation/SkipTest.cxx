@@ -1,7 +1,5 @@
 // What is left out must not be missed, not even where a scene is made to trip it up; and each skip
 // says how often it was used.
-#include "Contrast.h"
-#include "FloorMap.h"
 #include "Sampler.h"
 #include "ScatterBound.h"
 #include "SceneLibrary.h"
@@ -58,27 +56,11 @@ double LargestChange(const Outcome& skipping, const Outcome& all)
   return worst;
 }
 
-/// A corridor of 60 x 4 x 4 m full of smoke, with lamps of one strength along its ceiling.
-SceneDescription Corridor(double extinction)
-{
-  SceneDescription scene;
-  scene.Albedo = 0.5;
-  const Vec3 upper(60, 4, 4);
-  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 8, 8}, extinction)};
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, 0.0);
-  for (int lamp = 0; lamp < 15; ++lamp)
-  {
-    scene.Emitters.push_back(
-      scenes::Plate({2.0 + 4.0 * lamp, 2, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1000.0, 0.0));
-  }
-  return scene;
-}
-
 // Ways that are told are right to an optical depth of 0.004; that lamps far off are left out adds
 // nothing that shows.
 TEST(Skip, LampsFarOff)
 {
-  const SceneDescription scene = Corridor(1.0);
+  const SceneDescription scene = scenes::Corridor(1.0);
   const Outcome skipping = Solve(scene, true);
   const Outcome all = Solve(scene, false);
   report::Head("Corridor with 15 lamps: with all left out that may be, and with nothing left out");
@@ -96,7 +78,7 @@ TEST(Skip, LampsFarOff)
 // twenty optical depths, and must not be left out.
 TEST(Skip, StrongLampFarOff)
 {
-  SceneDescription scene = Corridor(0.4);
+  SceneDescription scene = scenes::Corridor(0.4);
   for (double& value : scene.Emitters.back().Luminance)
   {
     value *= 1e8;
@@ -111,7 +93,7 @@ TEST(Skip, StrongLampFarOff)
 /// cell wide; all lamps but the first four are taken away.
 SceneDescription Slot()
 {
-  SceneDescription scene = Corridor(0.05);
+  SceneDescription scene = scenes::Corridor(0.05);
   SmokeGrid& grid = scene.Grids[0];
   for (int z = 0; z < 8; ++z)
   {
@@ -142,7 +124,7 @@ TEST(Skip, ThinClearGap)
 TEST(Skip, ThinClearGapBesideALamp)
 {
   SceneDescription scene = Slot();
-  scene.Emitters.push_back(Corridor(0.05).Emitters.back());
+  scene.Emitters.push_back(scenes::Corridor(0.05).Emitters.back());
   const Outcome skipping = Solve(scene, true);
   const Outcome all = Solve(scene, false);
   report::Head("The same with another lamp on the far side");
@@ -341,7 +323,7 @@ TEST(Skip, MultipleScatteringOverOpticalDepth)
   int computed = 0;
   for (const double extinction : {1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 0.1, 1.0})
   {
-    SceneDescription scene = Corridor(extinction);
+    SceneDescription scene = scenes::Corridor(extinction);
     const Outcome skipping = Solve(scene, true);
     const Outcome all = Solve(scene, false);
     const double later = LargestLater(all);
@@ -372,7 +354,7 @@ TEST(Skip, MultipleScatteringByDetours)
     EXPECT_EQ(run.Count("multiple scattering skipped"), 0.0) << name;
     EXPECT_LT(LargestShareOfBound(run), 1.0) << name;
   };
-  const SceneDescription plain = Corridor(extinction);
+  const SceneDescription plain = scenes::Corridor(extinction);
   EXPECT_GT(Solve(plain, true).Count("multiple scattering skipped"), 0.0);
 
   SceneDescription behind = plain;
@@ -406,7 +388,7 @@ TEST(Skip, MultipleScatteringByDetours)
 // Two equal bands are one; the second has other random numbers where it is solved for itself.
 TEST(Skip, EqualBands)
 {
-  SceneDescription scene = Corridor(0.5);
+  SceneDescription scene = scenes::Corridor(0.5);
   scene.Emitters.resize(2);
   scene.Bands = 3;
   for (EmitterCell& cell : scene.Emitters)
@@ -434,110 +416,11 @@ TEST(Skip, EqualBands)
     std::hypot(StandardError(one), StandardError(other)));
 }
 
-// A sign that only reflects, and another in full light that is lost behind smoke: places of a map
-// keep their value where signs are left out that lie below a cut-off, but for those that do so.
-TEST(Skip, SignsBelowTheCutOff)
-{
-  SceneDescription scene = Corridor(0.25);
-  scene.Emitters.resize(4);
-  const auto add = [&scene](const Vec3& centre, double luminance, double reflectance, int id)
-  {
-    auto cells =
-      scenes::Barcode(centre, {1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, luminance, id, reflectance);
-    if (luminance == 0.0)
-    {
-      for (std::size_t cell = 0; cell < cells.size(); cell += 2)
-      {
-        cells[cell].Reflectance.fill(0.05);
-      }
-    }
-    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
-  };
-  add({0.01, 1.5, 2.0}, 0.0, 0.8, 0);
-  add({0.01, 2.8, 2.0}, 50.0, 0.1, 1);
-  const Outcome run = Solve(scene, true);
-  const View view(run.TheScene, run.Field);
-  FloorMapOptions options;
-  options.FirstPlace = {2.0, 1.0, 1.7};
-  options.StepX = 5.0;
-  options.StepY = 1.0;
-  options.PlacesX = 11;
-  options.PlacesY = 3;
-  Progress progress;
-  const FloorMap full = ComputeFloorMap(view, options, progress);
-  options.CutOff = 0.05;
-  const FloorMap cut = ComputeFloorMap(view, options, progress);
-  int kept = 0;
-  int left = 0;
-  EXPECT_EQ(cut.Status, full.Status);
-  EXPECT_EQ(WorkCount(full.Report, "views of signs skipped", "cut-off"), 0.0);
-  EXPECT_GT(WorkCount(cut.Report, "views of signs skipped", "cut-off"), 3.0);
-  for (std::size_t place = 0; place < full.Visibility.size(); ++place)
-  {
-    if (full.Visibility[place] >= options.CutOff)
-    {
-      EXPECT_EQ(cut.Visibility[place], full.Visibility[place]) << place;
-      ++kept;
-    }
-    else
-    {
-      EXPECT_LT(cut.Visibility[place], options.CutOff) << place;
-      ++left;
-    }
-  }
-  EXPECT_GT(kept, 3);
-  EXPECT_GT(left, 3);
-}
-
-// Signs that face away or stand behind a wall are not looked at: a map without a way to them is one
-// of the sign that is left, and what they light is there all the same.
-TEST(Skip, SignsOutOfView)
-{
-  SceneDescription scene = Corridor(0.25);
-  scene.Emitters.resize(4);
-  const auto add = [&scene](const Vec3& centre, const Vec3& normal, int id)
-  {
-    const auto cells = scenes::Barcode(centre, normal, {0, 0, 1}, 0.6, 0.3, 5, 50.0, id);
-    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
-  };
-  add({0.01, 2.0, 2.0}, {1, 0, 0}, 0);
-  add({1.0, 2.0, 2.6}, {-1, 0, 0}, 1);
-  scenes::AddRectangle(scene.Surfaces, {30, 0, 0}, {0, 4, 0}, {0, 0, 4}, 1, 1, 0.3);
-  add({40.0, 2.0, 2.0}, {-1, 0, 0}, 2);
-  const Outcome run = Solve(scene, true);
-  const View view(run.TheScene, run.Field);
-  FloorMapOptions options;
-  options.FirstPlace = {4.0, 1.0, 1.7};
-  options.StepX = 5.0;
-  options.StepY = 1.0;
-  options.PlacesX = 5;
-  options.PlacesY = 3;
-  Progress progress;
-  const FloorMap map = ComputeFloorMap(view, options, progress);
-  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "faces away"), 15.0);
-  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "hidden"), 15.0);
-  EXPECT_EQ(WorkCount(map.Report, "views of signs computed"), 15.0);
-  for (int place = 0; place < 15; ++place)
-  {
-    const Vec3 eye =
-      options.FirstPlace + Vec3(options.StepX * (place % 5), options.StepY * (place / 5), 0.0);
-    const SignMeasurement seen = MeasureSign(view, 0, eye, Observer{});
-    EXPECT_FLOAT_EQ(map.PerceivedContrast[place * 3], static_cast<float>(seen.PerceivedContrast));
-    EXPECT_EQ(map.PerceivedContrast[place * 3 + 1], 0.0F);
-    EXPECT_EQ(map.PerceivedContrast[place * 3 + 2], 0.0F);
-    // What is not looked at would have shown nothing.
-    for (const int sign : {1, 2})
-    {
-      EXPECT_EQ(MeasureSign(view, sign, eye, Observer{}).VisibleFraction, 0.0) << place;
-    }
-  }
-}
-
 // Black smoke between black walls scatters nothing; smoke that scatters next to nothing, with all
 // of it followed, comes to the same.
 TEST(Skip, NoScattering)
 {
-  SceneDescription scene = Corridor(0.25);
+  SceneDescription scene = scenes::Corridor(0.25);
   scene.Albedo = 0.0;
   const Outcome black = Solve(scene, true);
   EXPECT_GT(black.Count("multiple scattering skipped"), 0.0);
@@ -550,40 +433,6 @@ TEST(Skip, NoScattering)
     EXPECT_EQ(Mean(black.Field->MultipleFluence[cell]), 0.0F);
     EXPECT_LT(Mean(followed.Field->MultipleFluence[cell]), 1e-6);
   }
-}
-
-/// What a look at the first sign gives without a cut-off is what it gives with one below that.
-void ExpectKept(const SceneDescription& scene, const Vec3& eye, double cutOff)
-{
-  const Outcome run = Solve(scene, true);
-  const View view(run.TheScene, run.Field);
-  const Observer observer;
-  const double contrast = MeasureSign(view, 0, eye, observer).PerceivedContrast;
-  EXPECT_GT(contrast, cutOff);
-  EXPECT_EQ(MeasureSign(view, 0, eye, observer, cutOff).PerceivedContrast, contrast);
-}
-
-// Signs that show in a small part only: one whose uppermost bar stands out of thick smoke, and one
-// that only reflects, with a weak lamp close to one of its ends.
-TEST(Skip, SignsThatShowInAPart)
-{
-  SceneDescription layered;
-  layered.Albedo = 0.0;
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), Vec3(6, 4, 4), {6, 4, 2}, 6.0);
-  grid.Nodes[2] = {0.0, 2.0, 4.0};
-  std::fill(grid.Extinction.begin() + 24, grid.Extinction.end(), 0.0F);
-  layered.Grids = {grid};
-  scenes::AddRoom(layered.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
-  layered.Emitters = {scenes::Plate({0.01, 2, 1.5}, {1, 0, 0}, {0, 0, 1}, 0.5, 1.0, 0.0, 0.0, 0),
-    scenes::Plate({0.01, 2, 2.02}, {1, 0, 0}, {0, 0, 1}, 0.5, 0.04, 100.0, 0.0, 0)};
-  ExpectKept(layered, {5.0, 2.0, 2.1}, 1.0);
-
-  SceneDescription reflecting;
-  reflecting.Albedo = 0.0;
-  scenes::AddRoom(reflecting.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
-  reflecting.Emitters = {scenes::Plate({0.01, 2, 2}, {1, 0, 0}, {0, 0, 1}, 1.0, 0.2, 0.0, 0.8, 0),
-    scenes::Plate({0.06, 1.55, 2}, {-1, 0, 0}, {0, 0, 1}, 0.02, 0.02, 10.0, 0.0)};
-  ExpectKept(reflecting, {5.0, 2.0, 2.0}, 0.1);
 }
 
 } // namespace

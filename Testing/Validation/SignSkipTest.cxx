@@ -1,0 +1,147 @@
+// Views of signs that are left out: nothing of them is seen, or they lie below a cut-off.
+#include "Contrast.h"
+#include "FloorMap.h"
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "WorkCount.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Places in a corridor, 5 m apart along it and three beside each other.
+FloorMapOptions PlacesFrom(double x, int placesAlong)
+{
+  FloorMapOptions options;
+  options.FirstPlace = {x, 1.0, 1.7};
+  options.StepX = 5.0;
+  options.StepY = 1.0;
+  options.PlacesX = placesAlong;
+  options.PlacesY = 3;
+  return options;
+}
+
+// A sign that only reflects, and another in full light that is lost behind smoke: places of a map
+// keep their value where signs are left out that lie below a cut-off, but for those that do so.
+TEST(SignSkip, SignsBelowTheCutOff)
+{
+  SceneDescription scene = scenes::Corridor(0.25);
+  scene.Emitters.resize(4);
+  const auto add = [&scene](const Vec3& centre, double luminance, double reflectance, int id)
+  {
+    auto cells =
+      scenes::Barcode(centre, {1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, luminance, id, reflectance);
+    if (luminance == 0.0)
+    {
+      for (std::size_t cell = 0; cell < cells.size(); cell += 2)
+      {
+        cells[cell].Reflectance.fill(0.05);
+      }
+    }
+    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
+  };
+  add({0.01, 1.5, 2.0}, 0.0, 0.8, 0);
+  add({0.01, 2.8, 2.0}, 50.0, 0.1, 1);
+  const Solved solved(scene, 0.1);
+  FloorMapOptions options = PlacesFrom(2.0, 11);
+  Progress progress;
+  const FloorMap full = ComputeFloorMap(*solved.TheView, options, progress);
+  options.CutOff = 0.05;
+  const FloorMap cut = ComputeFloorMap(*solved.TheView, options, progress);
+  int kept = 0;
+  int left = 0;
+  EXPECT_EQ(cut.Status, full.Status);
+  EXPECT_EQ(WorkCount(full.Report, "views of signs skipped", "cut-off"), 0.0);
+  EXPECT_GT(WorkCount(cut.Report, "views of signs skipped", "cut-off"), 3.0);
+  for (std::size_t place = 0; place < full.Visibility.size(); ++place)
+  {
+    if (full.Visibility[place] >= options.CutOff)
+    {
+      EXPECT_EQ(cut.Visibility[place], full.Visibility[place]) << place;
+      ++kept;
+    }
+    else
+    {
+      EXPECT_LT(cut.Visibility[place], options.CutOff) << place;
+      ++left;
+    }
+  }
+  EXPECT_GT(kept, 3);
+  EXPECT_GT(left, 3);
+}
+
+// Signs that face away or stand behind a wall are not looked at, and nothing would be seen of them.
+TEST(SignSkip, SignsOutOfView)
+{
+  SceneDescription scene = scenes::Corridor(0.25);
+  scene.Emitters.resize(4);
+  const auto add = [&scene](const Vec3& centre, const Vec3& normal, int id)
+  {
+    const auto cells = scenes::Barcode(centre, normal, {0, 0, 1}, 0.6, 0.3, 5, 50.0, id);
+    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
+  };
+  add({0.01, 2.0, 2.0}, {1, 0, 0}, 0);
+  add({1.0, 2.0, 2.6}, {-1, 0, 0}, 1);
+  scenes::AddRectangle(scene.Surfaces, {30, 0, 0}, {0, 4, 0}, {0, 0, 4}, 1, 1, 0.3);
+  add({40.0, 2.0, 2.0}, {-1, 0, 0}, 2);
+  const Solved solved(scene, 0.1);
+  const FloorMapOptions options = PlacesFrom(4.0, 5);
+  Progress progress;
+  const FloorMap map = ComputeFloorMap(*solved.TheView, options, progress);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "faces away"), 15.0);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "hidden"), 15.0);
+  EXPECT_EQ(WorkCount(map.Report, "views of signs computed"), 15.0);
+  for (int place = 0; place < 15; ++place)
+  {
+    const Vec3 eye =
+      options.FirstPlace + Vec3(options.StepX * (place % 5), options.StepY * (place / 5), 0.0);
+    const SignMeasurement seen = MeasureSign(*solved.TheView, 0, eye, Observer{});
+    EXPECT_FLOAT_EQ(map.PerceivedContrast[place * 3], static_cast<float>(seen.PerceivedContrast));
+    EXPECT_EQ(map.PerceivedContrast[place * 3 + 1], 0.0F);
+    EXPECT_EQ(map.PerceivedContrast[place * 3 + 2], 0.0F);
+    for (const int sign : {1, 2})
+    {
+      EXPECT_EQ(MeasureSign(*solved.TheView, sign, eye, Observer{}).VisibleFraction, 0.0) << place;
+    }
+  }
+}
+
+/// What a look at the first sign gives without a cut-off is what it gives with one below that.
+void ExpectKept(const SceneDescription& scene, const Vec3& eye, double cutOff)
+{
+  const Solved solved(scene, 0.1);
+  const Observer observer;
+  const double contrast = MeasureSign(*solved.TheView, 0, eye, observer).PerceivedContrast;
+  EXPECT_GT(contrast, cutOff);
+  EXPECT_EQ(MeasureSign(*solved.TheView, 0, eye, observer, cutOff).PerceivedContrast, contrast);
+}
+
+// Signs that show in a small part only: one whose uppermost bar stands out of thick smoke, and one
+// that only reflects, with a weak lamp close to one of its ends.
+TEST(SignSkip, SignsThatShowInAPart)
+{
+  SceneDescription layered;
+  layered.Albedo = 0.0;
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), Vec3(6, 4, 4), {6, 4, 2}, 6.0);
+  grid.Nodes[2] = {0.0, 2.0, 4.0};
+  std::fill(grid.Extinction.begin() + 24, grid.Extinction.end(), 0.0F);
+  layered.Grids = {grid};
+  scenes::AddRoom(layered.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
+  layered.Emitters = {scenes::Plate({0.01, 2, 1.5}, {1, 0, 0}, {0, 0, 1}, 0.5, 1.0, 0.0, 0.0, 0),
+    scenes::Plate({0.01, 2, 2.02}, {1, 0, 0}, {0, 0, 1}, 0.5, 0.04, 100.0, 0.0, 0)};
+  ExpectKept(layered, {5.0, 2.0, 2.1}, 1.0);
+
+  SceneDescription reflecting;
+  reflecting.Albedo = 0.0;
+  scenes::AddRoom(reflecting.Surfaces, Vec3(0.0), Vec3(6, 4, 4), 2.0, 0.0);
+  reflecting.Emitters = {scenes::Plate({0.01, 2, 2}, {1, 0, 0}, {0, 0, 1}, 1.0, 0.2, 0.0, 0.8, 0),
+    scenes::Plate({0.06, 1.55, 2}, {-1, 0, 0}, {0, 0, 1}, 0.02, 0.02, 10.0, 0.0)};
+  ExpectKept(reflecting, {5.0, 2.0, 2.0}, 0.1);
+}
+
+} // namespace
