@@ -27,6 +27,10 @@ struct BatchState
   /// Sum of what left the scene [lm], and how many sweeps the sums count.
   double EscapedSum = 0.0;
   int Counted = 0;
+  /// Of the blocks of DiffusionBlocks, where there are any; of sweeps since it was emptied [lm].
+  std::vector<double> Residual;
+  /// What sweeps lack of their fluence by that, summed up over sweeps [lx].
+  std::vector<double> Lacking;
   /// Sweeps that the latest estimate comes from.
   int Sweeps = 0;
   WatchedLight Watched;

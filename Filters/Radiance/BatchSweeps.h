@@ -49,10 +49,16 @@ public:
   /// Sweeps drawn in all, and those that the sums hold.
   int Done() const { return this->Done_; }
   int Counted() const { return this->States_.front().Counted; }
+  /// What the latest light may still lack as a whole, over the mean fluence; 0 where nothing tells.
+  double MayLack() const { return this->MayLack_; }
+  /// Share of what is found lacking that is completed.
+  double Step() const { return this->Step_; }
   /// Lines that were traced for each batch.
   std::size_t LinesABatch() const { return this->LinesABatch_; }
 
 private:
+  /// Adds to the latest light what it lacks, where that is clear.
+  void CompleteLatest(const DiffusionBlocks& blocks);
   void ShareSums();
 
   LineSweep& Sweep_;
@@ -64,6 +70,12 @@ private:
   std::vector<BatchState> States_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   int Done_ = 0;
+  /// Sweeps since the latest light was completed.
+  int Lacking_ = 0;
+  double MayLack_ = 0.0;
+  /// What was completed last.
+  std::vector<double> Completed_;
+  double Step_ = 1.0;
   std::size_t LinesABatch_ = 0;
 };
 

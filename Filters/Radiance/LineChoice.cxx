@@ -22,6 +22,8 @@ constexpr double FineTolerance = 0.03;
 constexpr double MostTimes = 2.0;
 /// How many times the smoke's box the scene's must be for lines through the smoke's alone.
 constexpr double InnerRatio = 3.0;
+/// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
+constexpr double OftenShare = 0.75;
 
 /// The box around the scene, somewhat larger: surfaces on its border lie inside.
 Box SceneBox(const Scene& scene)
@@ -75,6 +77,25 @@ std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
       }
     });
   return inside;
+}
+
+bool ScattersOften(const Scene& scene, int band)
+{
+  const Medium& smoke = scene.Smoke();
+  if (smoke.Empty())
+  {
+    return false;
+  }
+  double depth = 0.0;
+  for (std::size_t i = 0; i < smoke.Cells(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i);
+    depth += smoke.Extinction(cell) * smoke.OwnVolume(cell);
+  }
+  // Mean optical depth of isotropic chords, by Cauchy's formula; the share that is not scattered
+  // again is about 1 / (1 + depth) (Wigner's rational approximation).
+  depth *= 4.0 * scene.ExtinctionScale(band) / BoxSurface(smoke.Upper() - smoke.Lower());
+  return scene.Albedo() * depth / (1.0 + depth) > OftenShare;
 }
 
 GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)

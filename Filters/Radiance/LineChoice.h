@@ -15,6 +15,10 @@ class Scene;
 /// they need not be put together (PatchGroups).
 GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
 
+/// Whether the smoke as a whole sends nearly all that it takes up on and on: light then is where
+/// few of a sweep's lines alone would not tell it from their number.
+bool ScattersOften(const Scene& scene, int band);
+
 /// Which patches lie in a box.
 std::vector<bool> PatchesIn(const Scene& scene, const Box& box);
 

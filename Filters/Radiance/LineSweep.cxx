@@ -22,8 +22,12 @@ constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
 /// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
 constexpr double ThinShare = 0.25;
-/// Times that lines must have met a cell or patch for its light to be expected there.
-constexpr float FewestMeetings = 1.0F;
+/// Mean reflectance of all surfaces, and of those in the smoke, up to which light that they send
+/// back is not much of what smoke does.
+constexpr double MostReflectance = 0.1;
+/// Steps of a cell's light are as large as its own noise lets them be, or larger by this: light
+/// that comes from its neighbours is smoother.
+constexpr float BoldSteps = 4.0F / 3.0F;
 
 /// Hits that sides need in a thin sweep, over the square of their reflectance: of the variance that
 /// a sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
@@ -33,6 +37,20 @@ constexpr float FewestHits = 0.25F;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
+
+/// Mean reflectance of what light meets of the surfaces and plates.
+double MeanReflectance(const Scene& scene, int band)
+{
+  double area = 0.0;
+  double reflects = 0.0;
+  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
+  {
+    const double exposed = scene.ExposedArea(patch, 0) + scene.ExposedArea(patch, 1);
+    area += exposed;
+    reflects += exposed * scene.PatchReflectance(patch)[band];
+  }
+  return area > 0.0 ? reflects / area : 0.0;
+}
 
 } // namespace
 
@@ -60,9 +78,12 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
+      Albedo_(static_cast<float>(scene.Albedo())), Latest_(std::pow(Albedo_, 4.0F)),
       Lines_(ChooseLines(scene, band, tolerance)), ThinLines_(Lines_)
 {
-  const double share = std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);
+  const bool often = ScattersOften(scene, band);
+  this->Latest_ = often ? 1.0F : this->Latest_;
+  const double share = often ? 1.0 : std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);
   this->Lines_ = this->Lines_.Thinned(share);
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
@@ -103,6 +124,41 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
   this->ThinLines_ =
     this->ThinLines_.Thinned(std::min(share, std::max(ThinShare, share * this->HitsShare())));
+  this->MeanPace_ = this->FindPace();
+  // What thick cells send to themselves is summed up for them alone.
+  if (often && this->Thick_.Count() == 0 && MeanReflectance(scene, band) <= MostReflectance)
+  {
+    this->Blocks_.emplace(scene, band, this->Extinction_);
+    if (this->Blocks_->Reflectance() > MostReflectance)
+    {
+      this->Blocks_.reset();
+    }
+  }
+}
+
+float LineSweep::PaceOf(float meetings) const
+{
+  // What lines would correct of a cell's own error differs from sweep to sweep by the lengths in
+  // it: its mean square shrinks fastest where 1 + their variance divides the step.
+  const float own = this->Latest_ * this->Albedo_;
+  return std::min(1.0F, BoldSteps / (1.0F + own * own * ThickCells::LengthVariance / meetings));
+}
+
+double LineSweep::FindPace() const
+{
+  double weights = 0.0;
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < this->Extinction_.size(); ++cell)
+  {
+    if (this->InverseVolume_[cell] > 0.0F)
+    {
+      const double weight = this->Extinction_[cell] / this->InverseVolume_[cell];
+      const float meetings = this->CellCrossings_[cell];
+      weights += weight;
+      sum += weight * (meetings >= FewestMeetings ? this->PaceOf(meetings) : 1.0F);
+    }
+  }
+  return weights > 0.0 ? sum / weights : 1.0;
 }
 
 double LineSweep::HitsShare() const
@@ -345,7 +401,10 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   // The tallies measure by how much the radiance differs from that of an expected field: lengths
   // and hits have known expectations, so this leaves the mean as it is and takes their scatter
   // away. What is expected must not know of this sweep's lines, and must have been met by lines
-  // itself: its noise would come back larger.
+  // itself: its noise would come back larger. In white smoke it is the latest light, which lines
+  // carry on nearly all of: what they then tell of a cell is by how much more comes in than goes
+  // out, which sums up to nothing over cells in a row. With the mean, a state that is off in a
+  // whole region would be multiplied by how many lines happen to cross that, sweep after sweep.
   const bool counted = state.Counted > 0;
   const float scale = counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F;
   const float sweeps = counted ? static_cast<float>(state.Counted) : state.Share;
@@ -360,8 +419,8 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
     // In a thick cell there is little but what it sends on.
     tallies.Cells[cell] = {source, this->Extinction_[cell],
       this->Thick_.IsThick(cell) ? 2.0F * source
-      : known                    ? scale * BothWays * fluence[cell]
-                                 : 0.0F,
+      : known ? BothWays * this->ExpectedFluence(state, cell, scale * fluence[cell])
+              : 0.0F,
       0.0F, {}, 0.0F};
   }
   this->ShapeSources(state, tallies);
@@ -400,24 +459,34 @@ void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) cons
 void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState& state) const
 {
   constexpr float isotropic = static_cast<float>(4.0 * glm::pi<double>());
-  const auto albedo = static_cast<float>(this->Scene_.Albedo());
   const auto loss = static_cast<float>(1.0 - this->Scene_.Albedo());
   for (std::size_t cell = 0; cell < state.Fluence.size(); ++cell)
   {
     const LineTallies::Cell& tally = tallies.Cells[cell];
+    const float before = state.Fluence[cell];
     const float change = this->InverseVolume_[cell] * tally.Fluence;
+    float residual;
     if (this->Thick_.IsThick(cell))
     {
       // Expected was what the cell sends out, less than single precision from what it holds.
       const float emission = this->Emission_.empty() ? 0.0F : isotropic * this->Emission_[cell];
-      const float residual =
-        albedo * this->DirectFluence_[cell] + emission - loss * state.Fluence[cell] + change;
-      state.FluenceSum[cell] += state.Fluence[cell] + residual;
+      residual = this->Albedo_ * this->DirectFluence_[cell] + emission - loss * before + change;
+      state.FluenceSum[cell] += before + residual;
       state.Fluence[cell] += this->Thick_.Gain(cell, share * this->CellCrossings_[cell]) * residual;
-      continue;
     }
-    state.Fluence[cell] = tally.Expected / BothWays + change;
-    state.FluenceSum[cell] += state.Fluence[cell];
+    else
+    {
+      const float estimate = tally.Expected / BothWays + change;
+      residual = estimate - before;
+      const float pace =
+        this->IsFresh(state, cell) ? this->PaceOf(share * this->CellCrossings_[cell]) : 1.0F;
+      state.Fluence[cell] = std::lerp(before, estimate, pace);
+      state.FluenceSum[cell] += estimate;
+    }
+    if (this->Blocks_)
+    {
+      this->Blocks_->AddResidual(cell, residual, state.Residual);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BatchState.h"
+#include "DiffusionBlocks.h"
 #include "GlobalLines.h"
 #include "LightField.h"
 #include "PatchGroups.h"
@@ -10,6 +11,7 @@
 #include "ThickCells.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -70,11 +72,16 @@ public:
   const std::vector<bool>& Watched() const { return this->Watched_; }
 
   const ThickCells& Thick() const { return this->Thick_; }
+  /// Blocks that complete what whole sweeps find; none where little is scattered often.
+  const DiffusionBlocks* Blocks() const { return this->Blocks_ ? &*this->Blocks_ : nullptr; }
+  /// Share of what a whole sweep would change of the light that it does change, in the mean over
+  /// what cells scatter.
+  double Pace() const { return this->MeanPace_; }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
-  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance and
-  /// is added to the sums.
+  /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance, or
+  /// takes them some way where its noise would grow, and is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
   /// @param thin whether a share of the lines is enough
   /// @param tallies scratch
@@ -82,6 +89,9 @@ public:
     const Progress& progress) const;
 
 private:
+  /// Times that lines must have met a cell or patch for its light to be expected there.
+  static constexpr float FewestMeetings = 1.0F;
+
   struct Buffers;
 
   /// Gives the sources of the cells their shapes.
@@ -103,6 +113,22 @@ private:
     const BatchState& state, double weight, const Buffers& buffers, LineTallies& tallies) const;
   /// Radiance that a watched side sends on of what others sent to it; 0 from all other sides.
   float WatchedOutgoing(const BatchState& state, const Hit& hit) const;
+  /// Whether the latest sweep's lines have met a cell themselves.
+  bool IsFresh(const BatchState& state, std::size_t cell) const
+  {
+    return state.Share * this->CellCrossings_[cell] >= FewestMeetings;
+  }
+  /// Fluence that is expected of a cell where its mean so far is known.
+  float ExpectedFluence(const BatchState& state, std::size_t cell, float mean) const
+  {
+    return this->IsFresh(state, cell)
+             ? mean + this->Latest_ * (this->Albedo_ * state.Fluence[cell] - mean)
+             : mean;
+  }
+  /// Share of a change that a fresh cell's light takes on in a sweep whose lines meet it so often.
+  float PaceOf(float meetings) const;
+  /// The mean of that.
+  double FindPace() const;
   /// Takes the tallies of the cells into a state.
   /// @param share of a whole sweep's lines that were traced
   void TakeFluence(const LineTallies& tallies, float share, BatchState& state) const;
@@ -116,6 +142,11 @@ private:
   int Band_;
   /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
   float Scatter_;
+  float Albedo_;
+  /// Weight of the latest light, not its mean, in what is expected of cells.
+  float Latest_;
+  double MeanPace_ = 1.0;
+  std::optional<DiffusionBlocks> Blocks_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
   std::vector<float> Extinction_;

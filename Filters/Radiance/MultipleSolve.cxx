@@ -28,6 +28,8 @@ namespace
 
 /// Share of the tolerance that the standard error of the veil is brought down to.
 constexpr double ErrorShare = 0.5;
+/// Standard error of the veil over itself above which nothing is known.
+constexpr double LargestError = 10.0;
 /// Share of the tolerance that light may be of which a bound shows that it is no more.
 constexpr double NegligibleShare = 0.25;
 /// Share of a band's part of the progress bar that its sweeps take.
@@ -217,12 +219,28 @@ void MultipleSolve::Band(int band)
     .Run();
   const int settling = sweeps.Done() - sweeps.Counted();
   this->Refine(sweeps, probes);
-  balance.ScaleSums(balance.Of(sweeps.States()), sweeps.States());
+  if (!(probes.RelativeError(sweeps.States()) <= LargestError))
+  {
+    throw Error("light field",
+      "scattered light is not known: its standard error is many times itself",
+      "Give a larger tolerance, or smoke cells that are about as long as wide and high");
+  }
+  const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
+  balance.ExpectLoss(powers);
+  if (sweep->Blocks() == nullptr)
+  {
+    balance.ScaleSums(powers, sweeps.States());
+  }
   this->Keep(band, sweeps);
   this->Gather(band, name);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
     "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");
+  if (sweep->Blocks() != nullptr)
+  {
+    this->Say(name + "blocks of diffusion", static_cast<double>(sweep->Blocks()->Count()),
+      "light is scattered so often that sweeps alone would take long to build it up");
+  }
   if (const std::size_t thick = sweep->Thick().Count(); thick > 0)
   {
     this->Say(name + "thick cells", static_cast<double>(thick),

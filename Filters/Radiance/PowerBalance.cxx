@@ -98,25 +98,42 @@ std::vector<PowerBalance::Powers> PowerBalance::Of(const std::vector<BatchState>
       {
         met += this->Capture_[cell] * batch.FluenceSum[cell];
       }
-      double sent = this->Scene_.Albedo() * met;
+      double reflected = 0.0;
       double taken = (1.0 - this->Scene_.Albedo()) * met;
       for (std::size_t side = 0; side < this->Area_.size(); ++side)
       {
         const double arrives = this->Area_[side] * batch.IlluminanceSum[side];
-        sent += this->Reflectance_[side] * arrives;
+        reflected += this->Reflectance_[side] * arrives;
         taken += (1.0 - this->Reflectance_[side]) * arrives;
       }
-      powers[i] = {sent / batch.Counted, (batch.EscapedSum + taken) / batch.Counted,
+      powers[i] = {(this->Scene_.Albedo() * met + reflected) / batch.Counted,
+        reflected / batch.Counted, (batch.EscapedSum + taken) / batch.Counted,
         batch.EscapedSum / batch.Counted};
     });
   return powers;
+}
+
+void PowerBalance::ExpectLoss(const std::vector<Powers>& powers) const
+{
+  double loss = 0.0;
+  double sent = 0.0;
+  for (const Powers& own : powers)
+  {
+    loss += own.Lost;
+    sent += this->Source_ + own.SentAgain;
+  }
+  if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses_)
+  {
+    throw Error("light field",
+      "hardly any light is lost anywhere, so that it would grow nearly without end",
+      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+  }
 }
 
 PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) const
 {
   Scales scales;
   double loss = 0.0;
-  double sent = 0.0;
   double sum = 0.0;
   double squares = 0.0;
   double scaledSum = 0.0;
@@ -125,7 +142,6 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
   {
     scales.Own.push_back(this->ScaleFor(own.Lost));
     loss += own.Lost;
-    sent += this->Source_ + own.SentAgain;
     const double scaled = own.SentAgain * scales.Own.back();
     sum += own.SentAgain;
     squares += own.SentAgain * own.SentAgain;
@@ -134,12 +150,6 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
   }
   scales.Agree = scaledSquares * sum * sum < squares * scaledSum * scaledSum;
   scales.Common = this->ScaleFor(loss / static_cast<double>(powers.size()));
-  if (std::abs(loss) < SmallestLoss * sent && this->HardlyLoses_)
-  {
-    throw Error("light field",
-      "hardly any light is lost anywhere, so that it would grow nearly without end",
-      "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
-  }
   return scales;
 }
 
@@ -148,13 +158,13 @@ double PowerBalance::ScaleFor(double loss) const
   return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : LargestScale;
 }
 
-double PowerBalance::SentAgain(const std::vector<Powers>& powers) const
+double PowerBalance::SentAgain(const std::vector<Powers>& powers, double Powers::*by) const
 {
   double later = 0.0;
   double loss = 0.0;
   for (const Powers& own : powers)
   {
-    later += own.SentAgain;
+    later += own.*by;
     // Much of the sky's light meets nothing on its way through.
     loss += own.Lost - (this->Sky_ ? own.Escaped : 0.0);
   }

@@ -34,16 +34,21 @@ public:
   /// What becomes of the light of a batch, means over the sweeps that count [lm].
   struct Powers
   {
-    /// What surfaces and smoke send out again; what they absorb or leaves the scene; the latter.
-    double SentAgain = 0.0, Lost = 0.0, Escaped = 0.0;
+    /// What surfaces and smoke send out again, and of that the surfaces; what they absorb or leaves
+    /// the scene, and of that the latter.
+    double SentAgain = 0.0, Reflected = 0.0, Lost = 0.0, Escaped = 0.0;
   };
   std::vector<Powers> Of(const std::vector<BatchState>& batches) const;
 
   /// Share of the light that smoke and surfaces take up or let go which they send on again: its
   /// power to n is about the share that is sent on more than n times.
-  double SentAgain(const std::vector<Powers>& powers) const;
+  /// @param by what sends it: SentAgain, or Reflected where only surfaces count
+  double SentAgain(
+    const std::vector<Powers>& powers, double Powers::*by = &Powers::SentAgain) const;
+  /// Throws Error where hardly any light is ever lost.
+  void ExpectLoss(const std::vector<Powers>& powers) const;
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
-  /// they do not agree better each for itself. Throws an error where hardly any light is ever lost.
+  /// they do not agree better each for itself.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums where the batches then agree better.
   void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;

@@ -2,7 +2,6 @@
 
 #include "BatchSweeps.h"
 #include "Errors.h"
-#include "PowerBalance.h"
 #include "SlowLight.h"
 #include "VeilProbes.h"
 
@@ -41,6 +40,11 @@ constexpr double LackingErrors = 0.25;
 /// Share of the tolerance below which that error need not be: probes may see next to nothing but
 /// direct light.
 constexpr double LeastErrorShare = 0.05;
+/// Share of what light lacks that whole sweeps leave which diffusion completes. In uniform smoke
+/// it would be 0.23 (Adams and Larsen 2002).
+constexpr double CompletedShare = 0.6;
+/// Sweeps after which what is completed is taken as it is.
+constexpr int CompletedSweeps = 512;
 /// Sweeps of a window after which light that still grows is not left to itself.
 constexpr int SlowWindow = 8;
 
@@ -55,10 +59,25 @@ Settling::Settling(const Scene& scene, const LightField& field, int band, double
 {
 }
 
+double Settling::Kept(double sent) const
+{
+  const LineSweep& sweep = this->Sweeps_.Sweep();
+  return sweep.Blocks() != nullptr
+           ? std::max(1.0 - this->Sweeps_.Step() * (1.0 - CompletedShare), sent)
+           : 1.0 - sweep.Pace() * (1.0 - sent);
+}
+
+double Settling::SentOf(const std::vector<PowerBalance::Powers>& powers) const
+{
+  return this->Balance_.SentAgain(powers, this->Sweeps_.Sweep().Blocks() != nullptr
+                                            ? &PowerBalance::Powers::Reflected
+                                            : &PowerBalance::Powers::SentAgain);
+}
+
 double Settling::Lacking(double sent, int sweeps) const
 {
   const double even = std::pow(sent, EvenOrders);
-  return std::pow(sent, sweeps) * (1.0 + even * (1.0 / this->Darkest_ - 1.0));
+  return std::pow(this->Kept(sent), sweeps) * (1.0 + even * (1.0 / this->Darkest_ - 1.0));
 }
 
 void Settling::BuildUp()
@@ -67,27 +86,48 @@ void Settling::BuildUp()
   {
     // The first sweeps differ much: each is balanced by its own loss.
     this->Sweeps_.Restart();
-    this->Sweeps_.Draw(1, true);
+    this->Sweeps_.Draw(1, this->Sweeps_.Sweep().Blocks() == nullptr);
     const std::vector<BatchState>& states = this->Sweeps_.States();
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
-    const double sent = this->Balance_.SentAgain(powers);
-    if (std::pow(sent, this->Sweeps_.Done()) <= this->Uncounted_ ||
+    const double sent = this->SentOf(powers);
+    if (std::pow(this->Kept(sent), this->Sweeps_.Done()) <= this->Uncounted_ ||
         this->Sweeps_.Done() == MostThinSweeps)
     {
       this->Darkest_ =
         BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
     }
     left = this->Lacking(sent, this->Sweeps_.Done());
-    this->Balance_.ScaleLatest(powers, this->Sweeps_.States());
+    this->Scale(powers);
     this->Sweeps_.Follow();
   }
   this->Sweeps_.Restart();
 }
 
+void Settling::Scale(const std::vector<PowerBalance::Powers>& powers)
+{
+  this->Balance_.ExpectLoss(powers);
+  if (this->Sweeps_.Sweep().Blocks() == nullptr)
+  {
+    this->Balance_.ScaleLatest(powers, this->Sweeps_.States());
+  }
+}
+
+void Settling::Complete()
+{
+  for (int window = 1;
+       this->Sweeps_.MayLack() > this->Limit_ && this->Sweeps_.Done() + window <= CompletedSweeps;
+       window *= 2)
+  {
+    this->Sweeps_.Draw(window);
+    this->Sweeps_.Follow();
+    this->Sweeps_.Restart();
+  }
+}
+
 Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& window) const
 {
   Verdict verdict;
-  const double shown = std::max(LeastShown, 1.0 - std::pow(window.Sent, window.Sweeps));
+  const double shown = std::max(LeastShown, 1.0 - std::pow(this->Kept(window.Sent), window.Sweeps));
   verdict.Drifts = drift.LowerBound > 0.0;
   verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
   verdict.Tolerable = drift.UpperBound < this->Limit_ * shown ||
@@ -98,7 +138,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   // Sweeps without end would be needed to tell that noise is no drift: there the share does that
   // the sums lack of what is sent on.
   const double lacking = this->Lacking(window.Sent, window.Before) /
-                         std::max(1.0, (1.0 - window.Sent) * this->Sweeps_.Counted());
+                         std::max(1.0, (1.0 - this->Kept(window.Sent)) * this->Sweeps_.Counted());
   verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
                                            (drift.IsNoise() && lacking <= LackingErrors * error));
   return verdict;
@@ -118,6 +158,7 @@ void Settling::ExpectSmall(const BlockMeans::Drift& drift) const
 void Settling::Run()
 {
   this->BuildUp();
+  this->Complete();
   SlowLight slow(this->Scene_, this->Sweeps_.Sweep(), this->Band_);
   std::optional<BlockMeans> earlier;
   bool summed = false;
@@ -128,7 +169,7 @@ void Settling::Run()
     this->Sweeps_.Follow();
     BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
-    window.Sent = this->Balance_.SentAgain(powers);
+    window.Sent = this->SentOf(powers);
     window.Over = this->Lacking(window.Sent, window.Before) < this->Uncounted_;
     Verdict verdict;
     if (earlier)
@@ -164,7 +205,7 @@ void Settling::Run()
     }
     else
     {
-      this->Balance_.ScaleLatest(powers, states);
+      this->Scale(powers);
       if (2 * window.Sweeps >= SlowWindow &&
           (verdict.Grows || this->Sweeps_.Sweep().Watched().empty()))
       {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BlockMeans.h"
+#include "PowerBalance.h"
 
 #include <optional>
 
@@ -11,7 +12,6 @@ namespace smokevis
 {
 
 class BatchSweeps;
-class PowerBalance;
 class Scene;
 class VeilProbes;
 struct LightField;
@@ -54,9 +54,18 @@ private:
     bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
   };
 
+  /// Share of what light lacks that it still lacks a sweep later.
+  /// @param sent share of the light that is sent on again
+  double Kept(double sent) const;
+  /// Share of the light that is sent on again by what diffusion does not complete.
+  double SentOf(const std::vector<PowerBalance::Powers>& powers) const;
   /// Share of the light, where it is darkest, that is sent on more often than so many times.
   double Lacking(double sent, int sweeps) const;
   void BuildUp();
+  /// Scales the latest light to be in balance, where diffusion does not complete it.
+  void Scale(const std::vector<PowerBalance::Powers>& powers);
+  /// Draws sweeps until what diffusion completes is known well enough.
+  void Complete();
   Verdict Judge(const BlockMeans::Drift& drift, const Window& window) const;
   /// Throws Error where a drift stands out of noise even now.
   void ExpectSmall(const BlockMeans::Drift& drift) const;

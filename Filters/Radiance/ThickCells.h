@@ -19,6 +19,9 @@ class Scene;
 class ThickCells
 {
 public:
+  /// Variance of the length of all lines in a cell that one of them would meet, over its square.
+  static constexpr float LengthVariance = 1.5F;
+
   ThickCells() = default;
   /// @param extinction of each cell in the band [1/m]
   /// @param lines of a whole sweep
@@ -45,9 +48,6 @@ private:
   /// scattered there again, 1 where lines tell nothing.
   static std::vector<double> Escapes(const Scene& scene, const std::vector<float>& extinction,
     const GlobalLines& lines, const Progress& progress);
-
-  /// Variance of the length of all lines in a cell that one of them would meet, over its square.
-  static constexpr float LengthVariance = 1.5F;
 
   /// Orders of scattering that light stays in a thick cell, 0 in others.
   std::vector<float> Orders_;

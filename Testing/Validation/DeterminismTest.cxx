@@ -2,6 +2,7 @@
 #include "Contrast.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
+#include "WorkCount.h"
 
 #include <cstring>
 
@@ -47,6 +48,21 @@ TEST(Determinism, OneAndTwoThreads)
 TEST(Determinism, TwiceInARow)
 {
   ExpectSame(Solved(TunnelWithLamp(), 0.01, 1), Solved(TunnelWithLamp(), 0.01, 1));
+}
+
+// Deep smoke that scatters often, where diffusion completes the sweeps.
+TEST(Determinism, SmokeThatIsCompleted)
+{
+  const auto solve = [](int threads)
+  { return Solved(scenes::MakeSlab(8.0, 0.95, 16).Description, 0.05, 1, threads); };
+  const Solved one = solve(1);
+  EXPECT_GT(WorkCount(one.Field->Report, "blocks of diffusion"), 0.0);
+  for (const int threads : {2, 3})
+  {
+    const Solved more = solve(threads);
+    EXPECT_TRUE(SameBits(one.Field->MultipleFluence, more.Field->MultipleFluence));
+    EXPECT_TRUE(SameBits(one.Field->MultipleIlluminance, more.Field->MultipleIlluminance));
+  }
 }
 
 // The seed matters, and only to what is estimated.

@@ -24,25 +24,17 @@ int LayersFor(double opticalDepth)
   return std::max(15, 2 * static_cast<int>(std::ceil(5.0 * opticalDepth)) + 1);
 }
 
-/// Share of itself that the standard error of a value is, at most, where it says something.
+/// Share of itself that the standard error of a value is, at most: deep in a slab and behind it
+/// there is little light, which the tolerance of a light field does not ask for.
 constexpr double KnownError = 0.1;
 
-/// Judges what little light comes deep into a slab or through it, where that is known: a light
-/// field's tolerance is met where there is light. Returns whether it is known.
-bool CheckDeep(const std::string& name, double reference, const Estimate& value, double tolerance)
+void CheckKnown(const std::string& name, double reference, const Estimate& value, double tolerance)
 {
-  if (value.StandardError > KnownError * reference)
-  {
-    std::printf("%s: %.3g is known to %.0f %% only\n", name.c_str(), reference,
-      100.0 * value.StandardError / reference);
-    return false;
-  }
   report::Relative(name, reference, value.Mean, tolerance, value.StandardError);
-  return true;
+  EXPECT_LE(value.StandardError, KnownError * reference) << name;
 }
 
-/// Returns how many of the row's values are known.
-int CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, double tolerance)
+void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, double tolerance)
 {
   const double depth = table.Number(row, "tau0");
   const double albedo = table.Number(row, "omega");
@@ -60,27 +52,23 @@ int CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, d
   const Estimate mean = solved.Fluence(all);
   const std::string name = "depth " + table.Text(row, "tau0") + " albedo " +
                            table.Text(row, "omega") + " layers " + std::to_string(layers);
-  int known = CheckDeep(name + " T", table.Number(row, "T"), through, tolerance) ? 1 : 0;
+  CheckKnown(name + " T", table.Number(row, "T"), through, tolerance);
   // A reflectance near zero (black smoke) is compared with the light that falls in.
   report::Absolute(name + " R", table.Number(row, "R"), back.Mean,
     tolerance * std::max(0.1, table.Number(row, "R")), back.StandardError);
   // The mean over a layer exceeds the value in its middle, by d^2 / 24 where light falls off as
   // exp(-x).
   const double thickness = depth / layers;
-  known += CheckDeep(name + " Gmid", table.Number(row, "Gmid"), middle,
-             tolerance + thickness * thickness / 24.0)
-             ? 1
-             : 0;
+  CheckKnown(
+    name + " Gmid", table.Number(row, "Gmid"), middle, tolerance + thickness * thickness / 24.0);
   const double absorbed = (1.0 - albedo) * depth;
   report::Absolute(name + " absorbed", table.Number(row, "absorbed"), absorbed * mean.Mean,
     tolerance * std::max(0.1, table.Number(row, "absorbed")), absorbed * mean.StandardError);
-  return known;
 }
 
 /// @param layers of each slab; 0: as many as it takes for thin ones
-/// @param unknown how many transmittances and fluences in the middle may be known to no tenth
 void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albedos, int layers = 0,
-  double tolerance = 0.01, int unknown = 0)
+  double tolerance = 0.01)
 {
   report::Head("Slab under diffuse light");
   const report::ReferenceTable table("slab_reflectance_transmittance.csv");
@@ -91,10 +79,9 @@ void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albe
     if (table.Text(row, "incidence") == "diffuse" && depth >= depthFrom && depth <= depthTo &&
         std::find(albedos.begin(), albedos.end(), albedo) != albedos.end())
     {
-      unknown -= 2 - CheckRow(table, row, layers > 0 ? layers : LayersFor(depth), tolerance);
+      CheckRow(table, row, layers > 0 ? layers : LayersFor(depth), tolerance);
     }
   }
-  EXPECT_GE(unknown, 0);
 }
 
 TEST(Slab, DepthOne)
@@ -138,12 +125,18 @@ TEST(Slab, ThickLong)
   CheckRows(1.0, 10.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
 }
 
-// To the end of the table: 321 layers of a tenth of a mean free path, through which 2 % to nothing
-// of the light comes. Where much of it is scattered often, that much is not known: of 32 values 12
-// were not, of slabs of 32 mean free paths from an albedo of 0.8 on and of 16 from 0.99 on.
+// To the end of the table: 321 layers of a tenth of a mean free path, through which 8 % to a
+// ten-billionth of the light comes.
 TEST(Slab, ThickestLong)
 {
-  CheckRows(16.0, 32.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0}, 0, 0.01, 14);
+  CheckRows(16.0, 32.0, {0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0});
+}
+
+// Light is scattered a thousand times before it is through, and what a cell gets of that in a sweep
+// hangs on few lines. Layers of a quarter and of half a mean free path, to 3 %.
+TEST(Slab, WhiteAndDeep)
+{
+  CheckRows(16.0, 32.0, {0.95, 0.99, 1.0}, 65, 0.03);
 }
 
 /// Light that a half-space of smoke sends back of diffuse light that falls in: from

@@ -1,0 +1,383 @@
+#include "DiffusionBlocks.h"
+
+#include "OpenFaces.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <tbb/parallel_for.h>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Optical depth of a block, and how many there are along an axis, at most.
+constexpr double BlockDepth = 1.0;
+constexpr double MostAlongAxis = 32.0;
+/// Cells whose middle lies right between blocks: rounding must not decide where they belong.
+constexpr double Aside = 1e-6;
+/// Resistance between blocks in nearly clear air, at least: along a whole axis it is less than
+/// that of a face, and the equations stay easy to solve.
+constexpr double LeastResistance = 0.1;
+/// Areas that differ by less are those of cells of one size.
+constexpr double SameSize = 1e-6;
+/// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
+/// iterations do.
+constexpr double SolverTolerance = 1e-3;
+constexpr int MostIterations = 2000;
+
+double FaceArea(const Vec3& size, int axis)
+{
+  return size[(axis + 1) % 3] * size[(axis + 2) % 3];
+}
+
+/// Net flux over a difference of fluence across some optical depth, by Fick's law. Light that is
+/// even inside a thick block comes to a face from its own side alone, which is a quarter of the
+/// fluence: that bounds the resistance, or else too much would be completed.
+double Resistance(double depth, double atFaces)
+{
+  return std::clamp(3.0 * depth, LeastResistance, 4.0 - atFaces);
+}
+
+/// Irradiance of a surface over the fluence at some optical depth before it: by Marshak's condition
+/// it is half the fluence there and the net flux.
+double IncidentShare(double reflectance, double depth)
+{
+  return 1.0 / (2.0 * (1.0 + reflectance) + Resistance(depth, 2.0) * (1.0 - reflectance));
+}
+
+} // namespace
+
+/// Sums over the cells of a block, and over what bounds it.
+struct DiffusionBlocks::Sums
+{
+  double Volume = 0.0, Capture = 0.0;
+  Vec3 Moment = Vec3(0.0);
+  /// Area across each axis through which light leaves the smoke [m2].
+  Vec3 Closed = Vec3(0.0);
+  /// What surfaces absorb over the fluence [m2]; also of those that stand inside of it.
+  double Absorbed = 0.0;
+
+  double Extinction() const { return this->Capture / this->Volume; }
+  Vec3 Centre() const { return this->Moment / this->Volume; }
+};
+
+DiffusionBlocks::DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction)
+    : Block_(extinction.size(), -1), Scattering_(extinction.size(), 0.0F),
+      Sides_(2 * scene.Patches())
+{
+  std::vector<Sums> blocks = this->FormBlocks(scene, extinction);
+  const Areas between = this->FindFaces(scene, blocks);
+  this->FindSides(scene, band, blocks);
+  this->FormOperator(scene.Albedo(), blocks, between);
+}
+
+std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
+  const Scene& scene, const std::vector<float>& extinction)
+{
+  const Medium& smoke = scene.Smoke();
+  const auto ownVolume = [&](std::size_t cell)
+  { return extinction[cell] > 0.0F ? smoke.OwnVolume(static_cast<std::int64_t>(cell)) : 0.0; };
+  // Where the smoke is dense, light is scattered most.
+  double capture = 0.0;
+  double squares = 0.0;
+  for (std::size_t cell = 0; cell < extinction.size(); ++cell)
+  {
+    const double own = extinction[cell] * ownVolume(cell);
+    capture += own;
+    squares += extinction[cell] * own;
+  }
+  const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
+  const Vec3 counts = glm::clamp(
+    glm::ceil(extent * (squares / std::max(capture, 1e-300) / BlockDepth)), 1.0, MostAlongAxis);
+  this->BlockSize_ = extent / counts;
+
+  // Boxes of cells; walls part them into blocks that light passes through.
+  std::vector<std::int64_t> box(extinction.size(), -1);
+  std::vector<std::size_t> parent(extinction.size());
+  const auto root = [&parent](std::size_t cell)
+  {
+    while (parent[cell] != cell)
+    {
+      parent[cell] = parent[parent[cell]];
+      cell = parent[cell];
+    }
+    return cell;
+  };
+  for (std::size_t i = 0; i < extinction.size(); ++i)
+  {
+    parent[i] = i;
+    if (ownVolume(i) > 0.0)
+    {
+      const Vec3 place =
+        glm::clamp(glm::floor((smoke.CellCentre(static_cast<std::int64_t>(i)) - smoke.Lower()) /
+                                this->BlockSize_ +
+                              Aside),
+          Vec3(0.0), counts - 1.0);
+      box[i] = static_cast<std::int64_t>(place.x + counts.x * (place.y + counts.y * place.z));
+    }
+  }
+  for (std::size_t i = 0; i < extinction.size(); ++i)
+  {
+    for (int face = 0; face < 6 && box[i] >= 0; ++face)
+    {
+      const std::int64_t other =
+        scene.Open().Neighbour(static_cast<std::int64_t>(i), face / 2, face % 2);
+      if (other >= 0 && box[other] == box[i])
+      {
+        parent[root(static_cast<std::size_t>(other))] = root(i);
+      }
+    }
+  }
+  std::vector<Sums> blocks;
+  std::vector<std::int32_t> numbers(extinction.size(), -1);
+  for (std::size_t i = 0; i < extinction.size(); ++i)
+  {
+    if (box[i] < 0)
+    {
+      continue;
+    }
+    std::int32_t& number = numbers[root(i)];
+    if (number < 0)
+    {
+      number = static_cast<std::int32_t>(blocks.size());
+      blocks.emplace_back();
+    }
+    const double own = ownVolume(i);
+    this->Block_[i] = number;
+    this->Scattering_[i] = static_cast<float>(scene.Albedo() * extinction[i] * own);
+    Sums& block = blocks[number];
+    block.Volume += own;
+    block.Capture += extinction[i] * own;
+    block.Moment += own * (smoke.CellCentre(static_cast<std::int64_t>(i)) - smoke.Lower());
+  }
+  return blocks;
+}
+
+DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
+  const Scene& scene, std::vector<Sums>& blocks) const
+{
+  const Medium& smoke = scene.Smoke();
+  Areas between;
+  for (std::size_t i = 0; i < this->Block_.size(); ++i)
+  {
+    const std::int32_t from = this->Block_[i];
+    const auto cell = static_cast<std::int64_t>(i);
+    if (from < 0)
+    {
+      continue;
+    }
+    for (int face = 0; face < 6; ++face)
+    {
+      const int axis = face / 2;
+      const int side = face % 2;
+      const double area = FaceArea(smoke.CellSize(cell), axis);
+      const std::int64_t other = scene.Open().Neighbour(cell, axis, side);
+      const double otherArea = other < 0 ? area : FaceArea(smoke.CellSize(other), axis);
+      if (area > (1.0 + SameSize) * otherArea)
+      {
+        // Its many small neighbours have the face between them.
+        continue;
+      }
+      const std::int32_t to = other < 0 ? -1 : this->Block_[other];
+      if (to < 0)
+      {
+        blocks[from].Closed[axis] += area;
+      }
+      else if (to != from)
+      {
+        // Faces between cells of one size come twice.
+        between[std::minmax(from, to)] += otherArea > (1.0 + SameSize) * area ? area : 0.5 * area;
+      }
+    }
+  }
+  return between;
+}
+
+void DiffusionBlocks::FindSides(const Scene& scene, int band, std::vector<Sums>& blocks)
+{
+  const Medium& smoke = scene.Smoke();
+  const double offset = 10.0 * scene.Shapes().Tolerance();
+  double surface = 0.0;
+  double reflects = 0.0;
+  std::vector<double> largest(this->Sides_.size(), 0.0);
+  scene.ForEachTriangle(
+    [&](std::size_t patch, const Triangle& corners)
+    {
+      const Vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      const double length = glm::length(across);
+      for (std::size_t which = 0; which < 2; ++which)
+      {
+        const std::size_t side = 2 * patch + which;
+        const double exposed = scene.ExposedArea(patch, static_cast<int>(which));
+        if (!(length > largest[side] && exposed > 0.0))
+        {
+          continue;
+        }
+        const Vec3 normal = (which == 0 ? 1.0 : -1.0) / length * across;
+        const std::int64_t cell =
+          smoke.Locate((corners[0] + corners[1] + corners[2]) / 3.0 + offset * normal);
+        const std::int32_t block = cell < 0 ? -1 : this->Block_[cell];
+        if (block < 0)
+        {
+          continue;
+        }
+        largest[side] = length;
+        const double reflectance = scene.PatchReflectance(patch)[band];
+        const double depth =
+          0.5 * blocks[block].Extinction() * glm::dot(glm::abs(normal), this->BlockSize_);
+        this->Sides_[side] = {block, static_cast<float>(IncidentShare(reflectance, depth))};
+      }
+    });
+  for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+  {
+    const Side& own = this->Sides_[side];
+    if (own.Block >= 0)
+    {
+      const double area = scene.ExposedArea(side / 2, static_cast<int>(side % 2));
+      const double reflectance = scene.PatchReflectance(side / 2)[band];
+      surface += area;
+      reflects += area * reflectance;
+      blocks[own.Block].Absorbed += area * (1.0 - reflectance) * own.Share;
+    }
+  }
+  this->Reflectance_ = surface > 0.0 ? reflects / surface : 0.0;
+}
+
+void DiffusionBlocks::FormOperator(
+  double albedo, const std::vector<Sums>& blocks, const Areas& between)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [pair, area] : between)
+  {
+    const auto [one, other] = pair;
+    const double depth = 0.5 * (blocks[one].Extinction() + blocks[other].Extinction()) *
+                         glm::distance(blocks[one].Centre(), blocks[other].Centre());
+    const double passes = area / Resistance(depth, 0.0);
+    entries.emplace_back(one, one, passes);
+    entries.emplace_back(one, other, -passes);
+    entries.emplace_back(other, other, passes);
+    entries.emplace_back(other, one, -passes);
+  }
+  for (const Sums& block : blocks)
+  {
+    double leaves = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      leaves +=
+        block.Closed[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * this->BlockSize_[axis]);
+    }
+    const auto index = static_cast<Eigen::Index>(this->Capture_.size());
+    entries.emplace_back(
+      index, index, (1.0 - albedo) * block.Capture + std::max(leaves, block.Absorbed));
+    this->Capture_.push_back(block.Capture);
+  }
+  const auto count = static_cast<Eigen::Index>(blocks.size());
+  this->Operator_.resize(count, count);
+  this->Operator_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
+{
+  Eigen::Map<Eigen::VectorXd> residual(
+    batch.Residual.data(), static_cast<Eigen::Index>(batch.Residual.size()));
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(SolverTolerance);
+  solver.setMaxIterations(MostIterations);
+  solver.compute(this->Operator_);
+  const Eigen::VectorXd lacks = step * solver.solve(residual);
+  residual.setZero();
+  if (solver.info() != Eigen::Success)
+  {
+    // Sweeps then build the light up by themselves.
+    return;
+  }
+  for (Eigen::Index block = 0; block < lacks.size(); ++block)
+  {
+    batch.Lacking[block] += lacks[block];
+  }
+  for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
+  {
+    batch.FluenceSum[cell] +=
+      this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lacks[this->Block_[cell]]);
+  }
+  for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+  {
+    const Side& own = this->Sides_[side];
+    batch.IlluminanceSum[side] +=
+      own.Block < 0 ? 0.0F : own.Share * static_cast<float>(lacks[own.Block]);
+  }
+}
+
+DiffusionBlocks::Lack DiffusionBlocks::LackOf(
+  int sweeps, const std::vector<BatchState>& batches) const
+{
+  const auto count = static_cast<double>(batches.size());
+  Lack lack;
+  double size = 0.0;
+  double error = 0.0;
+  for (std::size_t block = 0; block < this->Count(); ++block)
+  {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const BatchState& batch : batches)
+    {
+      sum += batch.Lacking[block] / sweeps;
+      squares += batch.Lacking[block] / sweeps * (batch.Lacking[block] / sweeps);
+    }
+    const double mean = sum / count;
+    lack.Fluence.push_back(mean);
+    size += this->Capture_[block] * mean * mean;
+    error += this->Capture_[block] * (squares / count - mean * mean) / (count - 1.0);
+  }
+  std::vector<double> mets(batches.size(), 0.0);
+  tbb::parallel_for(std::size_t{0}, batches.size(),
+    [&](std::size_t i)
+    {
+      for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
+      {
+        mets[i] += this->Scattering_[cell] * batches[i].FluenceSum[cell];
+      }
+    });
+  const double met =
+    std::accumulate(mets.begin(), mets.end(), 0.0) / (count * std::max(1, batches.front().Counted));
+  const double capture = std::accumulate(this->Capture_.begin(), this->Capture_.end(), 0.0);
+  const double scattering =
+    std::accumulate(this->Scattering_.begin(), this->Scattering_.end(), 0.0);
+  const double fluence = scattering > 0.0 ? std::abs(met) / scattering : 0.0;
+  if (fluence > 0.0)
+  {
+    lack.Size = std::sqrt(size / capture) / fluence;
+    lack.Error = std::sqrt(std::max(0.0, error) / capture) / fluence;
+  }
+  return lack;
+}
+
+void DiffusionBlocks::Complete(const Lack& lack, std::vector<BatchState>& batches) const
+{
+  tbb::parallel_for(std::size_t{0}, batches.size(),
+    [&](std::size_t i)
+    {
+      BatchState& batch = batches[i];
+      for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
+      {
+        batch.Fluence[cell] +=
+          this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lack.Fluence[this->Block_[cell]]);
+      }
+      for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+      {
+        const Side& own = this->Sides_[side];
+        batch.Illuminance[side] +=
+          own.Block < 0 ? 0.0F : own.Share * static_cast<float>(lack.Fluence[own.Block]);
+      }
+      std::fill(batch.Lacking.begin(), batch.Lacking.end(), 0.0);
+    });
+}
+
+} // namespace smokevis

@@ -1,0 +1,99 @@
+// What light that is scattered on and on still lacks, by the diffusion equation.
+#pragma once
+
+#include "BatchState.h"
+#include "Types.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+namespace smokevis
+{
+
+class Scene;
+
+/// Diffusion synthetic acceleration of sweeps (Kopp 1963, Alcouffe 1977; Adams and Larsen, Progress
+/// in Nuclear Energy 40, 2002): what a sweep changes of the fluence, here over blocks of cells
+/// about a mean free path wide, is the source of what sweeps without end would add to it, which in
+/// smoke that scatters often obeys the diffusion equation. Light that is not off is not changed, so
+/// that how good that equation is decides how fast sweeps converge, not what to. Light that leaves
+/// the smoke for clear air is taken for lost: what comes back is left to the sweeps.
+class DiffusionBlocks
+{
+public:
+  /// @param extinction of each cell in the band [1/m]
+  DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
+
+  std::size_t Count() const { return this->Capture_.size(); }
+  /// Mean reflectance of the surfaces in the smoke.
+  double Reflectance() const { return this->Reflectance_; }
+
+  /// Adds what a sweep would change of a cell's fluence [lx] to the residual of its block [lm].
+  void AddResidual(std::size_t cell, double change, std::vector<double>& residual) const
+  {
+    if (this->Block_[cell] >= 0)
+    {
+      residual[this->Block_[cell]] += this->Scattering_[cell] * change;
+    }
+  }
+  /// Adds to the sums of a batch, and to its Lacking, what its sweeps lack by its residual, and
+  /// empties that.
+  /// @param step share of that
+  void CompleteSums(double step, BatchState& batch) const;
+
+  /// What batches lack of the fluence in the mean over all of their sweeps.
+  struct Lack
+  {
+    /// Of each block [lx].
+    std::vector<double> Fluence;
+    /// Root mean square over the smoke, and its standard error, over the mean fluence.
+    double Size = 0.0, Error = 0.0;
+
+    /// Whether it stands out of noise, which would be completed else, and grow.
+    bool IsClear() const { return this->Size > Deviations * this->Error; }
+    static constexpr double Deviations = 3.0;
+  };
+  /// @param sweeps that the batches' Lacking adds up
+  Lack LackOf(int sweeps, const std::vector<BatchState>& batches) const;
+  /// Adds it to the latest light of the batches, whose Lacking it empties.
+  void Complete(const Lack& lack, std::vector<BatchState>& batches) const;
+
+private:
+  /// What sides of patches have to do with the blocks that they bound.
+  struct Side
+  {
+    std::int32_t Block = -1;
+    /// Illuminance over the block's fluence.
+    float Share = 0.0F;
+  };
+
+  /// Sums over the cells of a block, and over what bounds it.
+  struct Sums;
+  /// Between pairs of blocks [m2].
+  using Areas = std::map<std::pair<std::int32_t, std::int32_t>, double>;
+
+  std::vector<Sums> FormBlocks(const Scene& scene, const std::vector<float>& extinction);
+  /// Also adds to the blocks the area that bounds them.
+  Areas FindFaces(const Scene& scene, std::vector<Sums>& blocks) const;
+  void FindSides(const Scene& scene, int band, std::vector<Sums>& blocks);
+  void FormOperator(double albedo, const std::vector<Sums>& blocks, const Areas& between);
+
+  /// Block of each cell, or -1 where nothing scatters, and scattering coefficient times volume
+  /// [m2].
+  std::vector<std::int32_t> Block_;
+  std::vector<float> Scattering_;
+  std::vector<Side> Sides_;
+  Vec3 BlockSize_{0.0};
+  double Reflectance_ = 0.0;
+  /// Extinction coefficient times volume of each block [m2].
+  std::vector<double> Capture_;
+  /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
+  Eigen::SparseMatrix<double> Operator_;
+};
+
+} // namespace smokevis

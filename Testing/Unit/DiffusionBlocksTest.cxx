@@ -1,0 +1,146 @@
+// What light lacks that is scattered on and on, by the diffusion equation.
+#include "DiffusionBlocks.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// Layers of conservative smoke, so wide that 3 % leave through their edges; no wider, since sides
+/// of surfaces are looked for at a distance from them that goes by the scene's size.
+constexpr int Layers = 64;
+constexpr double Depth = 16.0;
+constexpr double Width = 3e3;
+
+SceneDescription Slab()
+{
+  SceneDescription description;
+  description.Albedo = 1.0;
+  SmokeGrid grid;
+  grid.Nodes = {{{0.0, Width}, {0.0, Width}, {}}};
+  for (int i = 0; i <= Layers; ++i)
+  {
+    grid.Nodes[2].push_back(Depth * i / Layers);
+  }
+  grid.Extinction.assign(Layers, 1.0F);
+  description.Grids.push_back(grid);
+  return description;
+}
+
+/// A square across the slab that faces up.
+void AddRectangle(SurfaceMesh& mesh, double z, double reflectance)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+  const auto cell = static_cast<std::uint32_t>(mesh.CellReflectance.size());
+  for (const Vec3& corner :
+    {Vec3(0, 0, z), Vec3(Width, 0, z), Vec3(Width, Width, z), Vec3(0, Width, z)})
+  {
+    mesh.Points.push_back(corner);
+  }
+  mesh.Triangles.push_back({first, first + 1, first + 2});
+  mesh.Triangles.push_back({first, first + 2, first + 3});
+  mesh.TriangleCell.insert(mesh.TriangleCell.end(), 2, cell);
+  mesh.CellReflectance.push_back(Spectrum{static_cast<float>(reflectance)});
+}
+
+BatchState Empty(const DiffusionBlocks& blocks, std::size_t sides = 0)
+{
+  BatchState batch(Layers, sides);
+  batch.Residual.assign(blocks.Count(), 0.0);
+  batch.Lacking = batch.Residual;
+  batch.Counted = 1;
+  return batch;
+}
+
+// A source of 1 lm/m3 between black surroundings: by Fick's law and Marshak's condition the fluence
+// is 3 x (L - x) / 2 + L, in the middles of blocks, a mean free path thick, less what the edges let
+// out.
+TEST(DiffusionBlocks, EvenSourceInASlab)
+{
+  const Scene scene(Slab());
+  const DiffusionBlocks blocks(scene, 0, std::vector<float>(Layers, 1.0F));
+  EXPECT_EQ(blocks.Count(), 16U);
+  BatchState batch = Empty(blocks);
+  for (std::size_t cell = 0; cell < Layers; ++cell)
+  {
+    blocks.AddResidual(cell, 1.0, batch.Residual);
+  }
+  blocks.CompleteSums(1.0, batch);
+  const auto fluence = [](double x) { return 1.5 * x * (Depth - x) + Depth; };
+  for (std::size_t block = 0; block < blocks.Count(); ++block)
+  {
+    const double x = static_cast<double>(block) + 0.5;
+    const double expected = fluence(x);
+    EXPECT_NEAR(
+      batch.FluenceSum[block * Layers / blocks.Count()], 0.985 * expected, 0.02 * expected);
+  }
+  EXPECT_EQ(batch.Residual, Empty(blocks).Residual);
+}
+
+// Half of what the source sends out comes to each of the two surfaces, and a wall in the middle
+// parts a block: the fluence is that of two slabs of half the depth.
+TEST(DiffusionBlocks, SurfacesAndAWall)
+{
+  SceneDescription description = Slab();
+  for (const double z : {0.0, 7.5, Depth})
+  {
+    AddRectangle(description.Surfaces, z, 0.0);
+  }
+  const Scene scene(description);
+  const DiffusionBlocks blocks(scene, 0, std::vector<float>(Layers, 1.0F));
+  EXPECT_EQ(blocks.Count(), 17U);
+  EXPECT_EQ(blocks.Reflectance(), 0.0);
+  BatchState batch = Empty(blocks, 2 * scene.Patches());
+  for (std::size_t cell = 0; cell < Layers; ++cell)
+  {
+    blocks.AddResidual(cell, 1.0, batch.Residual);
+  }
+  blocks.CompleteSums(1.0, batch);
+  // Sides that face the smoke, up and down.
+  EXPECT_NEAR(batch.IlluminanceSum[0], 0.5 * 7.5, 0.04 * 7.5);
+  EXPECT_NEAR(batch.IlluminanceSum[3], 0.5 * 7.5, 0.04 * 7.5);
+  EXPECT_NEAR(batch.IlluminanceSum[2], 0.5 * 8.5, 0.04 * 8.5);
+  EXPECT_NEAR(batch.IlluminanceSum[5], 0.5 * 8.5, 0.04 * 8.5);
+  EXPECT_EQ(batch.IlluminanceSum[1], 0.0F);
+  EXPECT_NEAR(batch.FluenceSum[14], 1.5 * 3.5 * 4.0 + 7.5, 2.0);
+}
+
+// Noise is not completed, and what all batches agree on is, by its mean.
+TEST(DiffusionBlocks, OnlyWhatIsClear)
+{
+  const Scene scene(Slab());
+  const DiffusionBlocks blocks(scene, 0, std::vector<float>(Layers, 1.0F));
+  std::vector<BatchState> batches(Batches, Empty(blocks));
+  for (int i = 0; i < Batches; ++i)
+  {
+    std::fill(batches[i].FluenceSum.begin(), batches[i].FluenceSum.end(), 2.0F);
+  }
+  // Of two sweeps, around means of two and a half and of three and a half standard errors.
+  const double error = 1.0 / std::sqrt(Batches - 1.0);
+  const auto lackOf = [&](double deviations)
+  {
+    for (int i = 0; i < Batches; ++i)
+    {
+      std::fill(batches[i].Lacking.begin(), batches[i].Lacking.end(),
+        2.0 * (deviations * error + (i % 2 == 0 ? 1.0 : -1.0)));
+    }
+    return blocks.LackOf(2, batches);
+  };
+  EXPECT_FALSE(lackOf(2.5).IsClear());
+  const DiffusionBlocks::Lack lack = lackOf(3.5);
+  EXPECT_TRUE(lack.IsClear());
+  // Over a fluence of 2.
+  EXPECT_NEAR(lack.Size, 0.5 * 3.5 * error, 1e-6);
+  EXPECT_NEAR(lack.Error, 0.5 * error, 1e-6);
+  blocks.Complete(lack, batches);
+  EXPECT_NEAR(batches[3].Fluence[7], 3.5 * error, 1e-6);
+  EXPECT_EQ(batches[3].Lacking, Empty(blocks).Lacking);
+}
+
+} // namespace
