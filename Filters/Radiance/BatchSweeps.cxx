@@ -4,7 +4,6 @@
 #include "Sampler.h"
 #include "Team.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -17,10 +16,6 @@ namespace
 
 /// Share of what is left of the progress bar that a sweep takes.
 constexpr double ProgressRate = 0.02;
-/// Share of what is completed that may still be lacking then.
-constexpr double LackingShare = 0.3;
-/// Share of what was completed that may come back before the next is completed by half as much.
-constexpr double MostReturned = 0.5;
 
 } // namespace
 
@@ -29,13 +24,9 @@ BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_
     : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span),
       States_(Batches, BatchState(field.Cells, 2 * field.Patches))
 {
-  if (const DiffusionBlocks* const blocks = sweep.Blocks())
+  if (sweep.Blocks())
   {
-    for (BatchState& state : this->States_)
-    {
-      state.Residual.assign(blocks->Count(), 0.0);
-      state.Lacking = state.Residual;
-    }
+    this->Completion_.emplace(*sweep.Blocks(), this->States_);
   }
 }
 
@@ -61,52 +52,21 @@ void BatchSweeps::Draw(int sweeps, bool thin)
     this->Progress_.Report(
       this->Span_.To - (this->Span_.To - this->Span_.From) * std::exp(-ProgressRate * this->Done_));
   }
-  const DiffusionBlocks* const blocks = this->Sweep_.Blocks();
-  if (blocks != nullptr)
+  if (this->Completion_)
   {
     this->Arena_.execute(
       [&]
       {
         tbb::parallel_for(std::size_t{0}, this->Team_.OwnCount(this->States_.size()),
           [&](std::size_t i)
-          { blocks->CompleteSums(this->Step_, this->States_[this->Team_.OwnItem(i)]); });
+          { this->Completion_->CompleteSums(this->States_[this->Team_.OwnItem(i)]); });
       });
   }
   this->ShareSums();
-  if (blocks != nullptr)
+  if (this->Completion_)
   {
-    this->Lacking_ += sweeps;
-    this->Arena_.execute([&] { this->CompleteLatest(*blocks); });
+    this->Arena_.execute([&] { this->Completion_->CompleteLatest(sweeps, this->States_); });
   }
-}
-
-void BatchSweeps::CompleteLatest(const DiffusionBlocks& blocks)
-{
-  DiffusionBlocks::Lack lack = blocks.LackOf(this->Lacking_, this->States_);
-  this->MayLack_ = std::max(lack.Error, lack.IsClear() ? LackingShare * lack.Size : 0.0);
-  if (!lack.IsClear())
-  {
-    return;
-  }
-  double forth = 0.0;
-  double before = 0.0;
-  for (std::size_t block = 0; block < this->Completed_.size(); ++block)
-  {
-    forth += lack.Fluence[block] * this->Completed_[block];
-    before += this->Completed_[block] * this->Completed_[block];
-  }
-  // What comes back with the other sign was completed by too much.
-  if (forth < -MostReturned * before)
-  {
-    this->Step_ *= 0.5;
-    for (double& fluence : lack.Fluence)
-    {
-      fluence *= 0.5;
-    }
-  }
-  blocks.Complete(lack, this->States_);
-  this->Completed_ = lack.Fluence;
-  this->Lacking_ = 0;
 }
 
 void BatchSweeps::Restart()

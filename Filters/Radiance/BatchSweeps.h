@@ -2,10 +2,12 @@
 #pragma once
 
 #include "BatchState.h"
+#include "Completion.h"
 #include "LineSweep.h"
 #include "Progress.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -49,16 +51,12 @@ public:
   /// Sweeps drawn in all, and those that the sums hold.
   int Done() const { return this->Done_; }
   int Counted() const { return this->States_.front().Counted; }
-  /// What the latest light may still lack as a whole, over the mean fluence; 0 where nothing tells.
-  double MayLack() const { return this->MayLack_; }
-  /// Share of what is found lacking that is completed.
-  double Step() const { return this->Step_; }
+  /// What completes them where smoke scatters often; else none.
+  const std::optional<Completion>& Diffusion() const { return this->Completion_; }
   /// Lines that were traced for each batch.
   std::size_t LinesABatch() const { return this->LinesABatch_; }
 
 private:
-  /// Adds to the latest light what it lacks, where that is clear.
-  void CompleteLatest(const DiffusionBlocks& blocks);
   void ShareSums();
 
   LineSweep& Sweep_;
@@ -68,14 +66,9 @@ private:
   Progress& Progress_;
   ProgressSpan Span_;
   std::vector<BatchState> States_;
+  std::optional<Completion> Completion_;
   tbb::enumerable_thread_specific<LineTallies> Tallies_;
   int Done_ = 0;
-  /// Sweeps since the latest light was completed.
-  int Lacking_ = 0;
-  double MayLack_ = 0.0;
-  /// What was completed last.
-  std::vector<double> Completed_;
-  double Step_ = 1.0;
   std::size_t LinesABatch_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "OpenFaces.h"
 #include "Scene.h"
+#include "Triangle.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <numeric>
 
 #include <Eigen/IterativeLinearSolvers>
+#include <boost/pending/disjoint_sets.hpp>
 #include <tbb/parallel_for.h>
 
 namespace smokevis
@@ -20,6 +22,9 @@ namespace
 /// Optical depth of a block, and how many there are along an axis, at most.
 constexpr double BlockDepth = 1.0;
 constexpr double MostAlongAxis = 32.0;
+/// Mean reflectance, of all surfaces and of those in the smoke, up to which light that they send
+/// back is not much of what smoke does.
+constexpr double MostReflectance = 0.1;
 /// Cells whose middle lies right between blocks: rounding must not decide where they belong.
 constexpr double Aside = 1e-6;
 /// Resistance between blocks in nearly clear air, at least: along a whole axis it is less than
@@ -31,6 +36,21 @@ constexpr double SameSize = 1e-6;
 /// iterations do.
 constexpr double SolverTolerance = 1e-3;
 constexpr int MostIterations = 2000;
+
+/// Mean reflectance of those sides of patches that counts(side) is true for.
+template <class Counts> double MeanReflectance(const Scene& scene, int band, Counts&& counts)
+{
+  double area = 0.0;
+  double reflects = 0.0;
+  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
+  {
+    const double exposed =
+      counts(side) ? scene.ExposedArea(side / 2, static_cast<int>(side % 2)) : 0.0;
+    area += exposed;
+    reflects += exposed * scene.PatchReflectance(side / 2)[band];
+  }
+  return area > 0.0 ? reflects / area : 0.0;
+}
 
 double FaceArea(const Vec3& size, int axis)
 {
@@ -57,6 +77,8 @@ double IncidentShare(double reflectance, double depth)
 /// Sums over the cells of a block, and over what bounds it.
 struct DiffusionBlocks::Sums
 {
+  /// Of the box that it lies in.
+  Vec3 Size = Vec3(0.0);
   double Volume = 0.0, Capture = 0.0;
   Vec3 Moment = Vec3(0.0);
   /// Area across each axis through which light leaves the smoke [m2].
@@ -67,6 +89,22 @@ struct DiffusionBlocks::Sums
   double Extinction() const { return this->Capture / this->Volume; }
   Vec3 Centre() const { return this->Moment / this->Volume; }
 };
+
+std::optional<DiffusionBlocks> DiffusionBlocks::Where(
+  const Scene& scene, int band, const std::vector<float>& extinction)
+{
+  std::optional<DiffusionBlocks> blocks;
+  if (MeanReflectance(scene, band, [](std::size_t) { return true; }) <= MostReflectance)
+  {
+    blocks.emplace(scene, band, extinction);
+    const auto inSmoke = [&blocks](std::size_t side) { return blocks->Sides_[side].Block >= 0; };
+    if (MeanReflectance(scene, band, inSmoke) > MostReflectance)
+    {
+      blocks.reset();
+    }
+  }
+  return blocks;
+}
 
 DiffusionBlocks::DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction)
     : Block_(extinction.size(), -1), Scattering_(extinction.size(), 0.0F),
@@ -96,33 +134,22 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
   const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
   const Vec3 counts = glm::clamp(
     glm::ceil(extent * (squares / std::max(capture, 1e-300) / BlockDepth)), 1.0, MostAlongAxis);
-  this->BlockSize_ = extent / counts;
+  const Vec3 blockSize = extent / counts;
 
   // Boxes of cells; walls part them into blocks that light passes through.
   std::vector<std::int64_t> box(extinction.size(), -1);
-  std::vector<std::size_t> parent(extinction.size());
-  const auto root = [&parent](std::size_t cell)
-  {
-    while (parent[cell] != cell)
-    {
-      parent[cell] = parent[parent[cell]];
-      cell = parent[cell];
-    }
-    return cell;
-  };
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
-    parent[i] = i;
     if (ownVolume(i) > 0.0)
     {
-      const Vec3 place =
-        glm::clamp(glm::floor((smoke.CellCentre(static_cast<std::int64_t>(i)) - smoke.Lower()) /
-                                this->BlockSize_ +
-                              Aside),
-          Vec3(0.0), counts - 1.0);
+      const Vec3 place = glm::clamp(
+        glm::floor(
+          (smoke.CellCentre(static_cast<std::int64_t>(i)) - smoke.Lower()) / blockSize + Aside),
+        Vec3(0.0), counts - 1.0);
       box[i] = static_cast<std::int64_t>(place.x + counts.x * (place.y + counts.y * place.z));
     }
   }
+  boost::disjoint_sets_with_storage<> joined(extinction.size());
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     for (int face = 0; face < 6 && box[i] >= 0; ++face)
@@ -131,7 +158,7 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
         scene.Open().Neighbour(static_cast<std::int64_t>(i), face / 2, face % 2);
       if (other >= 0 && box[other] == box[i])
       {
-        parent[root(static_cast<std::size_t>(other))] = root(i);
+        joined.union_set(i, static_cast<std::size_t>(other));
       }
     }
   }
@@ -143,11 +170,11 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
     {
       continue;
     }
-    std::int32_t& number = numbers[root(i)];
+    std::int32_t& number = numbers[joined.find_set(i)];
     if (number < 0)
     {
       number = static_cast<std::int32_t>(blocks.size());
-      blocks.emplace_back();
+      blocks.emplace_back().Size = blockSize;
     }
     const double own = ownVolume(i);
     this->Block_[i] = number;
@@ -204,34 +231,31 @@ void DiffusionBlocks::FindSides(const Scene& scene, int band, std::vector<Sums>&
 {
   const Medium& smoke = scene.Smoke();
   const double offset = 10.0 * scene.Shapes().Tolerance();
-  double surface = 0.0;
-  double reflects = 0.0;
   std::vector<double> largest(this->Sides_.size(), 0.0);
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners)
     {
-      const Vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const double length = glm::length(across);
+      const Vec3 vector = AreaVector(corners);
+      const double area = glm::length(vector);
       for (std::size_t which = 0; which < 2; ++which)
       {
         const std::size_t side = 2 * patch + which;
         const double exposed = scene.ExposedArea(patch, static_cast<int>(which));
-        if (!(length > largest[side] && exposed > 0.0))
+        if (!(area > largest[side] && exposed > 0.0))
         {
           continue;
         }
-        const Vec3 normal = (which == 0 ? 1.0 : -1.0) / length * across;
-        const std::int64_t cell =
-          smoke.Locate((corners[0] + corners[1] + corners[2]) / 3.0 + offset * normal);
+        const Vec3 normal = (which == 0 ? 1.0 : -1.0) / area * vector;
+        const std::int64_t cell = smoke.Locate(CentreOf(corners) + offset * normal);
         const std::int32_t block = cell < 0 ? -1 : this->Block_[cell];
         if (block < 0)
         {
           continue;
         }
-        largest[side] = length;
+        largest[side] = area;
         const double reflectance = scene.PatchReflectance(patch)[band];
         const double depth =
-          0.5 * blocks[block].Extinction() * glm::dot(glm::abs(normal), this->BlockSize_);
+          0.5 * blocks[block].Extinction() * glm::dot(glm::abs(normal), blocks[block].Size);
         this->Sides_[side] = {block, static_cast<float>(IncidentShare(reflectance, depth))};
       }
     });
@@ -240,14 +264,10 @@ void DiffusionBlocks::FindSides(const Scene& scene, int band, std::vector<Sums>&
     const Side& own = this->Sides_[side];
     if (own.Block >= 0)
     {
-      const double area = scene.ExposedArea(side / 2, static_cast<int>(side % 2));
-      const double reflectance = scene.PatchReflectance(side / 2)[band];
-      surface += area;
-      reflects += area * reflectance;
-      blocks[own.Block].Absorbed += area * (1.0 - reflectance) * own.Share;
+      blocks[own.Block].Absorbed += scene.ExposedArea(side / 2, static_cast<int>(side % 2)) *
+                                    (1.0 - scene.PatchReflectance(side / 2)[band]) * own.Share;
     }
   }
-  this->Reflectance_ = surface > 0.0 ? reflects / surface : 0.0;
 }
 
 void DiffusionBlocks::FormOperator(
@@ -271,7 +291,7 @@ void DiffusionBlocks::FormOperator(
     for (int axis = 0; axis < 3; ++axis)
     {
       leaves +=
-        block.Closed[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * this->BlockSize_[axis]);
+        block.Closed[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
     }
     const auto index = static_cast<Eigen::Index>(this->Capture_.size());
     entries.emplace_back(
@@ -328,8 +348,9 @@ DiffusionBlocks::Lack DiffusionBlocks::LackOf(
     double squares = 0.0;
     for (const BatchState& batch : batches)
     {
-      sum += batch.Lacking[block] / sweeps;
-      squares += batch.Lacking[block] / sweeps * (batch.Lacking[block] / sweeps);
+      const double own = batch.Lacking[block] / sweeps;
+      sum += own;
+      squares += own * own;
     }
     const double mean = sum / count;
     lack.Fluence.push_back(mean);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "BatchState.h"
-#include "Types.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,10 +28,12 @@ class DiffusionBlocks
 public:
   /// @param extinction of each cell in the band [1/m]
   DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
+  /// Those of a scene whose surfaces reflect little; else none: what walls send back for long is
+  /// not completed, and would be taken for known.
+  static std::optional<DiffusionBlocks> Where(
+    const Scene& scene, int band, const std::vector<float>& extinction);
 
   std::size_t Count() const { return this->Capture_.size(); }
-  /// Mean reflectance of the surfaces in the smoke.
-  double Reflectance() const { return this->Reflectance_; }
 
   /// Adds what a sweep would change of a cell's fluence [lx] to the residual of its block [lm].
   void AddResidual(std::size_t cell, double change, std::vector<double>& residual) const
@@ -88,8 +90,6 @@ private:
   std::vector<std::int32_t> Block_;
   std::vector<float> Scattering_;
   std::vector<Side> Sides_;
-  Vec3 BlockSize_{0.0};
-  double Reflectance_ = 0.0;
   /// Extinction coefficient times volume of each block [m2].
   std::vector<double> Capture_;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BatchState.h"
+#include "CellSteps.h"
 #include "DiffusionBlocks.h"
 #include "GlobalLines.h"
 #include "LightField.h"
@@ -19,6 +20,7 @@ namespace smokevis
 {
 
 class DirectField;
+struct LineBuffers;
 
 /// What a sweep adds up, by how much light differs from what was expected, times the weights of
 /// the lines; one a thread.
@@ -73,10 +75,9 @@ public:
 
   const ThickCells& Thick() const { return this->Thick_; }
   /// Blocks that complete what whole sweeps find; none where little is scattered often.
-  const DiffusionBlocks* Blocks() const { return this->Blocks_ ? &*this->Blocks_ : nullptr; }
-  /// Share of what a whole sweep would change of the light that it does change, in the mean over
-  /// what cells scatter.
-  double Pace() const { return this->MeanPace_; }
+  const std::optional<DiffusionBlocks>& Blocks() const { return this->Blocks_; }
+  /// Share of what a whole sweep would change of the light that it does change (CellSteps).
+  double MeanStep() const { return this->Steps_.MeanStep(); }
   /// Those of a thin sweep.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
 
@@ -89,18 +90,13 @@ public:
     const Progress& progress) const;
 
 private:
-  /// Times that lines must have met a cell or patch for its light to be expected there.
-  static constexpr float FewestMeetings = 1.0F;
-
-  struct Buffers;
-
   /// Gives the sources of the cells their shapes.
   void ShapeSources(const BatchState& state, LineTallies& tallies) const;
   /// Empties the tallies, and expects the light that is known so far of the cells and patches where
   /// that tells something.
   void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
-    Buffers& buffers) const;
+    LineBuffers& buffers) const;
   /// Share of a whole sweep's lines that surfaces need for noise not to grow, in the mean.
   double HitsShare() const;
   /// Share of a whole sweep's lines that a sweep has.
@@ -110,25 +106,9 @@ private:
   }
   /// Tallies what light the line takes from watched sides, and to them.
   void TallyWatched(
-    const BatchState& state, double weight, const Buffers& buffers, LineTallies& tallies) const;
+    const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const;
   /// Radiance that a watched side sends on of what others sent to it; 0 from all other sides.
   float WatchedOutgoing(const BatchState& state, const Hit& hit) const;
-  /// Whether the latest sweep's lines have met a cell themselves.
-  bool IsFresh(const BatchState& state, std::size_t cell) const
-  {
-    return state.Share * this->CellCrossings_[cell] >= FewestMeetings;
-  }
-  /// Fluence that is expected of a cell where its mean so far is known.
-  float ExpectedFluence(const BatchState& state, std::size_t cell, float mean) const
-  {
-    return this->IsFresh(state, cell)
-             ? mean + this->Latest_ * (this->Albedo_ * state.Fluence[cell] - mean)
-             : mean;
-  }
-  /// Share of a change that a fresh cell's light takes on in a sweep whose lines meet it so often.
-  float PaceOf(float meetings) const;
-  /// The mean of that.
-  double FindPace() const;
   /// Takes the tallies of the cells into a state.
   /// @param share of a whole sweep's lines that were traced
   void TakeFluence(const LineTallies& tallies, float share, BatchState& state) const;
@@ -142,11 +122,6 @@ private:
   int Band_;
   /// Scattered source luminance over fluence: albedo / (4 pi) where there is smoke.
   float Scatter_;
-  float Albedo_;
-  /// Weight of the latest light, not its mean, in what is expected of cells.
-  float Latest_;
-  double MeanPace_ = 1.0;
-  std::optional<DiffusionBlocks> Blocks_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
   std::vector<float> Extinction_;
@@ -155,6 +130,8 @@ private:
   GlobalLines Lines_, ThinLines_;
   ThickCells Thick_;
   SourceShape Shape_;
+  CellSteps Steps_;
+  std::optional<DiffusionBlocks> Blocks_;
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
   PatchGroups Groups_;

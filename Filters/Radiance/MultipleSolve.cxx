@@ -227,7 +227,7 @@ void MultipleSolve::Band(int band)
   }
   const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
   balance.ExpectLoss(powers);
-  if (sweep->Blocks() == nullptr)
+  if (!sweep->Blocks())
   {
     balance.ScaleSums(powers, sweeps.States());
   }
@@ -236,7 +236,7 @@ void MultipleSolve::Band(int band)
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
     "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");
-  if (sweep->Blocks() != nullptr)
+  if (sweep->Blocks())
   {
     this->Say(name + "blocks of diffusion", static_cast<double>(sweep->Blocks()->Count()),
       "light is scattered so often that sweeps alone would take long to build it up");

@@ -40,9 +40,6 @@ constexpr double LackingErrors = 0.25;
 /// Share of the tolerance below which that error need not be: probes may see next to nothing but
 /// direct light.
 constexpr double LeastErrorShare = 0.05;
-/// Share of what light lacks that whole sweeps leave which diffusion completes. In uniform smoke
-/// it would be 0.23 (Adams and Larsen 2002).
-constexpr double CompletedShare = 0.6;
 /// Sweeps after which what is completed is taken as it is.
 constexpr int CompletedSweeps = 512;
 /// Sweeps of a window after which light that still grows is not left to itself.
@@ -61,15 +58,13 @@ Settling::Settling(const Scene& scene, const LightField& field, int band, double
 
 double Settling::Kept(double sent) const
 {
-  const LineSweep& sweep = this->Sweeps_.Sweep();
-  return sweep.Blocks() != nullptr
-           ? std::max(1.0 - this->Sweeps_.Step() * (1.0 - CompletedShare), sent)
-           : 1.0 - sweep.Pace() * (1.0 - sent);
+  return this->Sweeps_.Diffusion() ? std::max(this->Sweeps_.Diffusion()->Left(), sent)
+                                   : 1.0 - this->Sweeps_.Sweep().MeanStep() * (1.0 - sent);
 }
 
 double Settling::SentOf(const std::vector<PowerBalance::Powers>& powers) const
 {
-  return this->Balance_.SentAgain(powers, this->Sweeps_.Sweep().Blocks() != nullptr
+  return this->Balance_.SentAgain(powers, this->Sweeps_.Diffusion()
                                             ? &PowerBalance::Powers::Reflected
                                             : &PowerBalance::Powers::SentAgain);
 }
@@ -86,7 +81,7 @@ void Settling::BuildUp()
   {
     // The first sweeps differ much: each is balanced by its own loss.
     this->Sweeps_.Restart();
-    this->Sweeps_.Draw(1, this->Sweeps_.Sweep().Blocks() == nullptr);
+    this->Sweeps_.Draw(1, !this->Sweeps_.Diffusion());
     const std::vector<BatchState>& states = this->Sweeps_.States();
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
     const double sent = this->SentOf(powers);
@@ -106,7 +101,7 @@ void Settling::BuildUp()
 void Settling::Scale(const std::vector<PowerBalance::Powers>& powers)
 {
   this->Balance_.ExpectLoss(powers);
-  if (this->Sweeps_.Sweep().Blocks() == nullptr)
+  if (!this->Sweeps_.Diffusion())
   {
     this->Balance_.ScaleLatest(powers, this->Sweeps_.States());
   }
@@ -115,7 +110,8 @@ void Settling::Scale(const std::vector<PowerBalance::Powers>& powers)
 void Settling::Complete()
 {
   for (int window = 1;
-       this->Sweeps_.MayLack() > this->Limit_ && this->Sweeps_.Done() + window <= CompletedSweeps;
+       this->Sweeps_.Diffusion() && this->Sweeps_.Diffusion()->MayLack() > this->Limit_ &&
+       this->Sweeps_.Done() + window <= CompletedSweeps;
        window *= 2)
   {
     this->Sweeps_.Draw(window);

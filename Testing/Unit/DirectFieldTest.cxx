@@ -3,7 +3,7 @@
 #include "DirectField.h"
 #include "LightField.h"
 #include "NearField.h"
-#include "Scene.h"
+#include "SceneLibrary.h"
 
 #include <cmath>
 #include <tuple>
@@ -17,28 +17,12 @@ using namespace smokevis;
 
 constexpr double Extinction = 2.0;
 
-/// Even smoke in a box from the origin on.
-SmokeGrid EvenSmoke(const Vec3& upper, int cells, double extinction)
-{
-  SmokeGrid grid;
-  grid.Name = "even";
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    for (int i = 0; i <= cells; ++i)
-    {
-      grid.Nodes[axis].push_back(upper[axis] * i / cells);
-    }
-  }
-  grid.Extinction.assign(cells * cells * cells, static_cast<float>(extinction));
-  return grid;
-}
-
 /// A sign of five lit bars, 0.5 m x 0.25 m, at the end of a box of even smoke.
 SceneDescription Barred(int bars)
 {
   SceneDescription scene;
   scene.Albedo = 0.5;
-  scene.Grids = {EvenSmoke(Vec3(2.0), 12, Extinction)};
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(2.0), {12, 12, 12}, Extinction)};
   for (int bar = 0; bar < bars; bar += 2)
   {
     const double low = 0.75 + 0.5 * bar / bars;
@@ -236,7 +220,7 @@ SceneDescription ThinSmokeWith(const std::vector<Vec3>& plate, double exponent, 
 {
   SceneDescription description;
   description.Albedo = 0.5;
-  description.Grids = {EvenSmoke(Vec3(4.0), cells, 0.3)};
+  description.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4.0), {cells, cells, cells}, 0.3)};
   EmitterCell lamp;
   lamp.Vertices = plate;
   lamp.Luminance.fill(1000.0);
@@ -433,7 +417,7 @@ SceneDescription Lamp(double exponent, double extinction)
 {
   SceneDescription scene;
   scene.Albedo = 0.9;
-  scene.Grids = {EvenSmoke({4, 4, 3}, 16, extinction)};
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {4, 4, 3}, {16, 16, 16}, extinction)};
   EmitterCell cell;
   cell.Vertices = {{1.7, 1.4, 3}, {1.7, 2.6, 3}, {2.3, 2.6, 3}, {2.3, 1.4, 3}};
   cell.Luminance.fill(1000.0);

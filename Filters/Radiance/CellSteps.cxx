@@ -1,0 +1,48 @@
+#include "CellSteps.h"
+
+#include "Scene.h"
+#include "ThickCells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Steps of a cell's light are as large as its own noise lets them be, or larger by this: light
+/// that comes from its neighbours is smoother.
+constexpr float BoldSteps = 4.0F / 3.0F;
+/// Power of the albedo that the latest light's weight is: in soot the mean has less noise.
+constexpr float LatestPower = 4.0F;
+
+} // namespace
+
+CellSteps::CellSteps(const Scene& scene, const std::vector<float>& extinction,
+  const std::vector<float>& meetings, bool often)
+    : Albedo_(static_cast<float>(scene.Albedo())),
+      Latest_(often ? 1.0F : std::pow(Albedo_, LatestPower))
+{
+  double weights = 0.0;
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < extinction.size(); ++cell)
+  {
+    const double weight =
+      extinction[cell] * scene.Smoke().OwnVolume(static_cast<std::int64_t>(cell));
+    weights += weight;
+    sum += weight * this->Step(meetings[cell], meetings[cell]);
+  }
+  this->MeanStep_ = weights > 0.0 ? sum / weights : 1.0;
+}
+
+float CellSteps::StepOf(float meetings) const
+{
+  // What lines would correct of a cell's own error differs from sweep to sweep by the lengths in
+  // it: its mean square shrinks fastest where 1 + their variance divides the step.
+  const float own = this->Latest_ * this->Albedo_;
+  return std::min(1.0F, BoldSteps / (1.0F + own * own * ThickCells::LengthVariance / meetings));
+}
+
+} // namespace smokevis

@@ -1,0 +1,232 @@
+// LineSweep's part that carries light along one line.
+#include "LineSweep.h"
+
+#include "DirectField.h"
+#include "LineBuffers.h"
+#include "LinePieces.h"
+
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace smokevis
+{
+
+float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
+  const std::size_t side = 2 * patch + hit.Side;
+  float radiance = static_cast<float>(reflectance / glm::pi<double>()) *
+                   (this->DirectIlluminance_[side] + state.Illuminance[side]);
+  if (hit.Emitter && hit.Side == 0)
+  {
+    const EmitterSet& lights = this->Scene_.Lights();
+    const std::size_t cell = patch - this->Scene_.SurfacePatches();
+    if (lights.LeftToLines(cell))
+    {
+      const EmitterCell& emitter = lights.Cells()[cell];
+      const double along = glm::dot(direction, lights.CellNormal(cell));
+      const double relative =
+        lights.CellLaw(cell).Relative(along < 0.0 ? -direction : direction, std::abs(along));
+      radiance += static_cast<float>(emitter.Luminance[this->Band_] * relative);
+    }
+  }
+  return radiance;
+}
+
+void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line,
+  LineTallies& tallies, LineBuffers& buffers) const
+{
+  const Vec3& origin = line.Origin;
+  const Vec3& direction = line.Direction;
+  const double length = line.Length;
+  const auto weight = static_cast<float>(line.Weight);
+  const Medium& smoke = this->Scene_.Smoke();
+  this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
+  const std::size_t crossings = buffers.Crossings.size();
+  buffers.Cell.clear();
+  buffers.Length.clear();
+  buffers.Depth.clear();
+  buffers.Source.clear();
+  buffers.Change.clear();
+  buffers.First.assign(1, 0);
+  smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  const bool flat = this->Shape_.Flat();
+  const Vec3 start = origin - smoke.Lower();
+  const std::array<float, 3> along = {static_cast<float>(direction.x),
+    static_cast<float>(direction.y), static_cast<float>(direction.z)};
+  const auto add = [&](std::int64_t cell, double begin, double end)
+  {
+    const LineTallies::Cell& own = tallies.Cells[cell];
+    const float slope = own.Slope[0] * along[0] + own.Slope[1] * along[1] + own.Slope[2] * along[2];
+    double at = begin;
+    const auto addPart = [&](double part, float source)
+    {
+      const auto size = static_cast<float>(part);
+      buffers.Cell.push_back(cell);
+      buffers.Length.push_back(size);
+      buffers.Depth.push_back(own.Extinction * size);
+      if (!flat)
+      {
+        const Vec3 middle = start + (at + 0.5 * part) * direction;
+        source += own.Offset + own.Slope[0] * static_cast<float>(middle.x) +
+                  own.Slope[1] * static_cast<float>(middle.y) +
+                  own.Slope[2] * static_cast<float>(middle.z);
+        at += part;
+        buffers.Change.push_back(slope * size);
+      }
+      buffers.Source.push_back(source);
+    };
+    if (!this->Direct_.Varies(cell, this->Band_))
+    {
+      addPart(end - begin, own.Source);
+      return;
+    }
+    const float mean = this->DirectFluence_[cell];
+    this->Direct_.ForEachPart(cell, origin, direction, begin, end, line.Random, this->Band_,
+      [&](double part, double direct)
+      { addPart(part, own.Source + this->Scatter_ * (static_cast<float>(direct) - mean)); });
+  };
+  ForEachPiece(
+    buffers.Crossings, buffers.Segments,
+    [&](std::size_t) { buffers.First.push_back(buffers.Cell.size()); }, add);
+  const std::size_t pieces = buffers.Cell.size();
+  buffers.First.push_back(pieces);
+
+  buffers.Transmittance.resize(pieces);
+  buffers.Escape.resize(pieces);
+  buffers.Added.resize(pieces);
+  buffers.Tilt.assign(pieces, 0.0F);
+  buffers.Excess.resize(pieces);
+  for (std::size_t i = 0; i < pieces; ++i)
+  {
+    const float depth = buffers.Depth[i];
+    const float transmittance = std::exp(-depth);
+    buffers.Transmittance[i] = transmittance;
+    buffers.Escape[i] = depth < 0.01F
+                          ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
+                          : (1.0F - transmittance) / depth;
+    // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
+    buffers.Added[i] = depth * buffers.Escape[i] * buffers.Source[i];
+    if (!flat)
+    {
+      buffers.Tilt[i] = buffers.Change[i] * SourceShape::Tilt(depth, buffers.Escape[i]);
+    }
+  }
+
+  for (std::vector<float>& arriving : buffers.Arriving)
+  {
+    arriving.resize(this->Watched_.empty() ? 0 : crossings);
+  }
+  const auto arrive = [&](const Hit& hit, float radiance)
+  {
+    const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
+    tallies.Illuminance[side] +=
+      weight * (radiance - static_cast<float>(glm::one_over_pi<double>()) *
+                             tallies.ExpectedIlluminance[side]);
+  };
+  const auto sky = static_cast<float>(this->Scene_.Sky());
+  float radiance = sky;
+  for (std::size_t part = 0; part <= crossings; ++part)
+  {
+    for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
+    {
+      buffers.Excess[i] = radiance - buffers.Source[i];
+      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] + buffers.Tilt[i]);
+    }
+    if (part < crossings)
+    {
+      arrive(buffers.Crossings[part].Arrive, radiance);
+      if (!this->Watched_.empty())
+      {
+        buffers.Arriving[0][part] = radiance;
+      }
+      radiance = this->Outgoing(state, buffers.Crossings[part].Leave, direction);
+    }
+  }
+  tallies.Escaped += weight * radiance;
+  radiance = sky;
+  for (std::size_t part = crossings + 1; part-- > 0;)
+  {
+    for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
+    {
+      buffers.Excess[i] += radiance - buffers.Source[i];
+      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] - buffers.Tilt[i]);
+    }
+    if (part > 0)
+    {
+      arrive(buffers.Crossings[part - 1].Leave, radiance);
+      if (!this->Watched_.empty())
+      {
+        buffers.Arriving[1][part - 1] = radiance;
+      }
+      radiance = this->Outgoing(state, buffers.Crossings[part - 1].Arrive, direction);
+    }
+  }
+  tallies.Escaped += weight * radiance;
+  for (std::size_t i = 0; i < pieces; ++i)
+  {
+    LineTallies::Cell& cell = tallies.Cells[buffers.Cell[i]];
+    cell.Fluence +=
+      weight * buffers.Length[i] *
+      (buffers.Excess[i] * buffers.Escape[i] + (2.0F * buffers.Source[i] - cell.Expected));
+  }
+  if (!this->Watched_.empty())
+  {
+    this->TallyWatched(state, line.Weight, buffers, tallies);
+  }
+}
+
+float LineSweep::WatchedOutgoing(const BatchState& state, const Hit& hit) const
+{
+  const std::size_t patch = this->Scene_.Patch(hit);
+  const std::size_t side = 2 * patch + hit.Side;
+  return this->Watched_[side]
+           ? static_cast<float>(
+               this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>()) *
+               state.Illuminance[side]
+           : 0.0F;
+}
+
+void LineSweep::TallyWatched(
+  const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const
+{
+  const auto take = [&](const Hit& hit, float sent, float left, float all)
+  {
+    const bool watched = this->Watched_[2 * this->Scene_.Patch(hit) + hit.Side];
+    tallies.WatchedLost += weight * (watched ? sent - left : sent);
+    tallies.WatchedGained += watched ? weight * (all - left) : 0.0;
+  };
+  const std::size_t crossings = buffers.Crossings.size();
+  float first = 0.0F;
+  for (std::size_t part = 0; part <= crossings; ++part)
+  {
+    float through = 1.0F;
+    for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
+    {
+      through *= buffers.Transmittance[i];
+    }
+    float last = 0.0F;
+    if (part < crossings)
+    {
+      take(buffers.Crossings[part].Arrive, first, through * first, buffers.Arriving[0][part]);
+      last = this->WatchedOutgoing(state, buffers.Crossings[part].Arrive);
+    }
+    else
+    {
+      tallies.WatchedLost += weight * first;
+    }
+    if (part > 0)
+    {
+      take(buffers.Crossings[part - 1].Leave, last, through * last, buffers.Arriving[1][part - 1]);
+    }
+    else
+    {
+      tallies.WatchedLost += weight * last;
+    }
+    first = part < crossings ? this->WatchedOutgoing(state, buffers.Crossings[part].Leave) : 0.0F;
+  }
+}
+
+} // namespace smokevis
