@@ -19,7 +19,8 @@ struct DeepScene
 };
 
 inline const std::vector<DeepScene> DeepScenes = {{"soot 4", 1.0, 0.3}, {"soot 8", 2.0, 0.3},
-  {"soot 12", 3.0, 0.3}, {"white 4", 1.0, 0.99}, {"white 8", 2.0, 0.99}, {"white 12", 3.0, 0.99}};
+  {"soot 12", 3.0, 0.3}, {"white 4", 1.0, 0.99}, {"white 8", 2.0, 0.99}, {"white 12", 3.0, 0.99},
+  {"white 17", 4.25, 0.99}};
 
 /// Rays from the eye to points drawn evenly over the four dark bars, or the five lit ones, of the
 /// tunnel's sign.

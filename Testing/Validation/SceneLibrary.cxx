@@ -341,34 +341,39 @@ Slab MakeSlab(double opticalDepth, double albedo, int layers)
   // Light that reaches the middle from beyond the margin has crossed eight mean free paths of
   // smoke, or leaked through the faces for twice the thickness: less than 1e-3 of the fluence.
   const double margin = 8.0 / opticalDepth + 2.0;
-  const double half = 2.5 * margin;
-  constexpr int Across = 20;
+  const double half = margin / 0.6;
+  // In white smoke light would spread too fast through wide columns, to the open sides: those of
+  // ten mean free paths lost 2 % of what comes through 16.
+  constexpr double widest = 5.0;
+  const int across =
+    10 * std::max(2, static_cast<int>(std::ceil(0.2 * half * opticalDepth / widest)));
   Slab slab;
   slab.Layers = layers;
   SceneDescription& scene = slab.Description;
   scene.Albedo = albedo;
   scene.Grids.push_back(
-    UniformSmoke({-half, -half, 0}, {half, half, 1}, {Across, Across, layers}, opticalDepth));
+    UniformSmoke({-half, -half, 0}, {half, half, 1}, {across, across, layers}, opticalDepth));
   const Vec3 u(2.0 * half, 0, 0);
   const Vec3 v(0, 2.0 * half, 0);
-  AddRectangle(scene.Surfaces, {-half, -half, 1}, v, u, Across, Across, 0.0);
+  AddRectangle(scene.Surfaces, {-half, -half, 1}, v, u, across, across, 0.0);
   scene.Emitters =
-    EmittingRectangle({-half, -half, 0}, u, v, Across, Across, std::numbers::inv_pi, 0.0);
+    EmittingRectangle({-half, -half, 0}, u, v, across, across, std::numbers::inv_pi, 0.0);
 
-  // 12 of 20 cells are nearer to the middle than 0.6 of the half width.
+  // Those nearer to the middle than 0.4 of the half width.
+  const int first = across * 3 / 10;
   slab.MiddleCells.resize(static_cast<std::size_t>(layers));
-  for (int j = 4; j < 16; ++j)
+  for (int j = first; j < across - first; ++j)
   {
-    for (int i = 4; i < 16; ++i)
+    for (int i = first; i < across - first; ++i)
     {
-      const int flat = i + Across * j;
+      const int flat = i + across * j;
       for (int layer = 0; layer < layers; ++layer)
       {
         slab.MiddleCells[static_cast<std::size_t>(layer)].push_back(
-          flat + static_cast<std::int64_t>(Across) * Across * layer);
+          flat + static_cast<std::int64_t>(across) * across * layer);
       }
       slab.FarPatches.push_back(static_cast<std::size_t>(flat));
-      slab.NearPatches.push_back(static_cast<std::size_t>(Across * Across + flat));
+      slab.NearPatches.push_back(static_cast<std::size_t>(across * across + flat));
     }
   }
   return slab;

@@ -75,8 +75,8 @@ inline const Vec3 TunnelEye{0.001, 0.5, 0.5};
 EmitterCell TunnelLamp(double x);
 
 /// A slab between z = 0 (emitting black wall of luminance 1/pi, so that the incident illuminance is
-/// 1) and z = 1 (black patches), open at its sides. Cells with |x| and |y| below `core` metres are
-/// those to look at; all is wide enough for the sides not to matter there.
+/// 1) and z = 1 (black patches), open at its sides, and so wide that these do not matter in the
+/// middle.
 struct Slab
 {
   SceneDescription Description;
