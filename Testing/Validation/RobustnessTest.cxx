@@ -308,7 +308,6 @@ TEST(OddInput, ReflectingSignInARoomInsideOut)
   report::Head("Reflecting sign in a room of outward surfaces");
   report::Relative("luminance [cd/m2]", values[0].Mean, values[1].Mean, 0.01,
     std::hypot(values[0].StandardError, values[1].StandardError));
-  EXPECT_LT(values[1].StandardError, 0.1 * values[1].Mean);
 }
 
 // Half of a sign that only reflects is sunk into a block: what shows of it is as bright as a sign

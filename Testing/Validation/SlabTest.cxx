@@ -24,16 +24,6 @@ int LayersFor(double opticalDepth)
   return std::max(15, 2 * static_cast<int>(std::ceil(5.0 * opticalDepth)) + 1);
 }
 
-/// Share of itself that the standard error of a value is, at most: deep in a slab and behind it
-/// there is little light, which the tolerance of a light field does not ask for.
-constexpr double KnownError = 0.1;
-
-void CheckKnown(const std::string& name, double reference, const Estimate& value, double tolerance)
-{
-  report::Relative(name, reference, value.Mean, tolerance, value.StandardError);
-  EXPECT_LE(value.StandardError, KnownError * reference) << name;
-}
-
 void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, double tolerance)
 {
   const double depth = table.Number(row, "tau0");
@@ -52,15 +42,16 @@ void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, 
   const Estimate mean = solved.Fluence(all);
   const std::string name = "depth " + table.Text(row, "tau0") + " albedo " +
                            table.Text(row, "omega") + " layers " + std::to_string(layers);
-  CheckKnown(name + " T", table.Number(row, "T"), through, tolerance);
+  report::Relative(
+    name + " T", table.Number(row, "T"), through.Mean, tolerance, through.StandardError);
   // A reflectance near zero (black smoke) is compared with the light that falls in.
   report::Absolute(name + " R", table.Number(row, "R"), back.Mean,
     tolerance * std::max(0.1, table.Number(row, "R")), back.StandardError);
   // The mean over a layer exceeds the value in its middle, by d^2 / 24 where light falls off as
   // exp(-x).
   const double thickness = depth / layers;
-  CheckKnown(
-    name + " Gmid", table.Number(row, "Gmid"), middle, tolerance + thickness * thickness / 24.0);
+  report::Relative(name + " Gmid", table.Number(row, "Gmid"), middle.Mean,
+    tolerance + thickness * thickness / 24.0, middle.StandardError);
   const double absorbed = (1.0 - albedo) * depth;
   report::Absolute(name + " absorbed", table.Number(row, "absorbed"), absorbed * mean.Mean,
     tolerance * std::max(0.1, table.Number(row, "absorbed")), absorbed * mean.StandardError);

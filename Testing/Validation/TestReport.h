@@ -14,7 +14,8 @@ namespace smokevis::report
 void Head(const std::string& caption);
 
 /// Prints a row (reference, value, relative deviation, and z-score where there is a standard error)
-/// and fails where |value - reference| > tolerance |reference| + 3 standardError.
+/// and fails where |value - reference| > tolerance |reference| + 3 standardError, or where the
+/// standard error is above 15 % of the reference.
 void Relative(const std::string& name, double reference, double value, double tolerance,
   double standardError = 0.0);
 

@@ -10,12 +10,18 @@
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 #include <vtkSmokeLightField.h>
 #include <vtkVisibilityImage.h>
 
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 namespace
 {
@@ -137,6 +143,38 @@ TEST_F(PipelineTest, KeepsThePartsOfCellsThatWallsCut)
   this->Field->SetInputDataObject(0, copy->GetPartition(0, 0));
   EXPECT_EQ(this->Result("UnlitLuminance"), first);
   EXPECT_LT(first, 0.6 * veiled);
+}
+
+TEST_F(PipelineTest, ShowsTheSameBitsFromAnyNumberOfThreads)
+{
+  FillExtinction(this->Smoke, 0.5);
+  this->Field->SetAlbedo(0.8);
+  this->Field->SetTolerance(0.1);
+  this->View->SetImageSize(64, 32);
+  const tbb::global_control three(tbb::global_control::max_allowed_parallelism, 3);
+  std::vector<vtkSmartPointer<vtkPointData>> images;
+  for (const int threads : {1, 2, 3})
+  {
+    this->Field->Modified();
+    tbb::task_arena(threads).execute([this] { this->View->Update(); });
+    images.push_back(vtkSmartPointer<vtkPointData>::New());
+    images.back()->DeepCopy(this->View->GetOutput()->GetPointData());
+  }
+  const int arrays = images.front()->GetNumberOfArrays();
+  EXPECT_GT(arrays, 2);
+  for (int i = 0; i < arrays; ++i)
+  {
+    vtkDataArray* const one = images.front()->GetArray(i);
+    for (const auto& more : images)
+    {
+      vtkDataArray* const other = more->GetArray(one->GetName());
+      ASSERT_EQ(other->GetDataSize(), one->GetDataSize());
+      EXPECT_EQ(std::memcmp(other->GetVoidPointer(0), one->GetVoidPointer(0),
+                  one->GetDataSize() * one->GetDataTypeSize()),
+        0)
+        << one->GetName();
+    }
+  }
 }
 
 TEST_F(PipelineTest, MapsTheFloor)
