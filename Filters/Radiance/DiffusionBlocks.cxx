@@ -23,8 +23,8 @@ namespace
 constexpr double BlockDepth = 1.0;
 constexpr double MostAlongAxis = 32.0;
 /// Mean reflectance, of all surfaces and of those in the smoke, up to which light that they send
-/// back is not much of what smoke does.
-constexpr double MostReflectance = 0.1;
+/// back is not much of what smoke does; a tenth by rounding, too.
+constexpr double MostReflectance = 0.1 * (1.0 + 1e-6);
 /// Cells whose middle lies right between blocks: rounding must not decide where they belong.
 constexpr double Aside = 1e-6;
 /// Resistance between blocks in nearly clear air, at least: along a whole axis it is less than
@@ -97,7 +97,11 @@ std::optional<DiffusionBlocks> DiffusionBlocks::Where(
   if (MeanReflectance(scene, band, [](std::size_t) { return true; }) <= MostReflectance)
   {
     blocks.emplace(scene, band, extinction);
-    const auto inSmoke = [&blocks](std::size_t side) { return blocks->Sides_[side].Block >= 0; };
+    const auto inSmoke = [&blocks](std::size_t side)
+    {
+      const std::int32_t block = blocks->Sides_[side].Block;
+      return block >= 0 && blocks->Capture_[block] > 0.0;
+    };
     if (MeanReflectance(scene, band, inSmoke) > MostReflectance)
     {
       blocks.reset();
@@ -121,7 +125,7 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
 {
   const Medium& smoke = scene.Smoke();
   const auto ownVolume = [&](std::size_t cell)
-  { return extinction[cell] > 0.0F ? smoke.OwnVolume(static_cast<std::int64_t>(cell)) : 0.0; };
+  { return smoke.OwnVolume(static_cast<std::int64_t>(cell)); };
   // Where the smoke is dense, light is scattered most.
   double capture = 0.0;
   double squares = 0.0;
@@ -293,10 +297,13 @@ void DiffusionBlocks::FormOperator(
       leaves +=
         block.Closed[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
     }
+    // Even light brings a quarter of its fluence to a surface: what absorbs more than all around
+    // the block belongs to others, too.
+    const double lost = std::max(leaves, std::min(block.Absorbed, 0.25 * BoxSurface(block.Size)));
     const auto index = static_cast<Eigen::Index>(this->Capture_.size());
-    entries.emplace_back(
-      index, index, (1.0 - albedo) * block.Capture + std::max(leaves, block.Absorbed));
+    entries.emplace_back(index, index, (1.0 - albedo) * block.Capture + lost);
     this->Capture_.push_back(block.Capture);
+    this->Escape_.push_back(lost - block.Absorbed);
   }
   const auto count = static_cast<Eigen::Index>(blocks.size());
   this->Operator_.resize(count, count);
@@ -321,6 +328,7 @@ void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
   for (Eigen::Index block = 0; block < lacks.size(); ++block)
   {
     batch.Lacking[block] += lacks[block];
+    batch.EscapedSum += this->Escape_[block] * lacks[block];
   }
   for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
   {

@@ -21,8 +21,8 @@ class Scene;
 /// in Nuclear Energy 40, 2002): what a sweep changes of the fluence, here over blocks of cells
 /// about a mean free path wide, is the source of what sweeps without end would add to it, which in
 /// smoke that scatters often obeys the diffusion equation. Light that is not off is not changed, so
-/// that how good that equation is decides how fast sweeps converge, not what to. Light that leaves
-/// the smoke for clear air is taken for lost: what comes back is left to the sweeps.
+/// that how good that equation is decides how fast sweeps converge, not what to. Clear air beside
+/// smoke is part of it: there light mixes.
 class DiffusionBlocks
 {
 public:
@@ -85,13 +85,15 @@ private:
   void FindSides(const Scene& scene, int band, std::vector<Sums>& blocks);
   void FormOperator(double albedo, const std::vector<Sums>& blocks, const Areas& between);
 
-  /// Block of each cell, or -1 where nothing scatters, and scattering coefficient times volume
-  /// [m2].
+  /// Block of each cell, or -1 inside of walls, and scattering coefficient times volume [m2].
   std::vector<std::int32_t> Block_;
   std::vector<float> Scattering_;
   std::vector<Side> Sides_;
   /// Extinction coefficient times volume of each block [m2].
   std::vector<double> Capture_;
+  /// Power that leaves each block, less what its sides absorb of it, over its fluence [m2]: over
+  /// all blocks what leaves the scene.
+  std::vector<double> Escape_;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
   Eigen::SparseMatrix<double> Operator_;
 };

@@ -10,9 +10,9 @@ namespace smokevis
 
 class Scene;
 
-/// Lines through the scene that cross each smoke cell about 1.5 times and meet each patch that
-/// sends light on or out as often, in the mean; these more often below a tolerance of 0.03, so that
-/// they need not be put together (PatchGroups).
+/// Lines through the scene that cross a smoke cell of mean size about 1.5 times and meet each patch
+/// that sends light on or out as often, in the mean; these more often below a tolerance of 0.03, so
+/// that they need not be put together (PatchGroups).
 GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
 
 /// Whether the smoke as a whole sends nearly all that it takes up on and on: light then is where

@@ -227,7 +227,11 @@ void MultipleSolve::Band(int band)
   }
   const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
   balance.ExpectLoss(powers);
-  if (!sweep->Blocks())
+  if (sweep->Blocks())
+  {
+    balance.ScaleCompleted(powers, sweeps.States());
+  }
+  else
   {
     balance.ScaleSums(powers, sweeps.States());
   }
@@ -235,7 +239,7 @@ void MultipleSolve::Band(int band)
   this->Gather(band, name);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
-    "each cell is crossed about 1.5 times, less often above a tolerance of 0.03");
+    "cells of mean size are crossed about 1.5 times, less often above a tolerance of 0.03");
   if (sweep->Blocks())
   {
     this->Say(name + "blocks of diffusion", static_cast<double>(sweep->Blocks()->Count()),

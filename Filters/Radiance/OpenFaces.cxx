@@ -41,11 +41,6 @@ OpenFaces::OpenFaces(const Scene& scene)
     {
       for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
       {
-        // Only scattering cells are asked for.
-        if (smoke.Extinction(static_cast<std::int64_t>(cell)) == 0.0F)
-        {
-          continue;
-        }
         const Vec3 centre = smoke.CellCentre(static_cast<std::int64_t>(cell));
         for (int axis = 0; axis < 3; ++axis)
         {

@@ -16,8 +16,7 @@ class OpenFaces
 public:
   explicit OpenFaces(const Scene& scene);
 
-  /// The cell that light passes to freely through a face, or -1. Only scattering cells are asked
-  /// for.
+  /// The cell that light passes to freely through a face, or -1.
   /// @param axis 0..2, @param side 0: low, 1: high
   std::int64_t Neighbour(std::int64_t cell, int axis, int side) const
   {

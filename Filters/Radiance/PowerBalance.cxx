@@ -22,6 +22,8 @@ constexpr double LargestScale = 1e3;
 /// Share of the light sent out that must be lost, or else what leaks through rounded corners
 /// decides.
 constexpr double SmallestLoss = 1e-5;
+/// Standard errors that what diffusion completes must be off by to be scaled.
+constexpr double ClearDeviations = 3.0;
 
 void Multiply(std::vector<float>& values, double scale)
 {
@@ -205,6 +207,32 @@ void PowerBalance::ScaleSums(
     {
       Multiply(batches[i].FluenceSum, scales.Own[i]);
       Multiply(batches[i].IlluminanceSum, scales.Own[i]);
+    });
+}
+
+void PowerBalance::ScaleCompleted(
+  const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
+{
+  const auto count = static_cast<double>(powers.size());
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const Powers& own : powers)
+  {
+    sum += own.Lost;
+    squares += own.Lost * own.Lost;
+  }
+  const double loss = sum / count;
+  const double error = std::sqrt(std::max(0.0, squares / count - loss * loss) / (count - 1.0));
+  if (this->Sky_ || std::abs(this->Source_ - loss) <= ClearDeviations * error)
+  {
+    return;
+  }
+  const double scale = this->ScaleFor(loss);
+  this->ForEach(batches.size(),
+    [&](std::size_t i)
+    {
+      Multiply(batches[i].FluenceSum, scale);
+      Multiply(batches[i].IlluminanceSum, scale);
     });
 }
 

@@ -52,6 +52,9 @@ public:
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums where the batches then agree better.
   void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
+  /// Scales sums that diffusion completes all alike, where what they lose is clearly not what is
+  /// emitted: each for itself they would bring the noise of the balance along.
+  void ScaleCompleted(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
 
 private:
   struct Scales

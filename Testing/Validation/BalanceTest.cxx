@@ -3,6 +3,7 @@
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
+#include "WorkCount.h"
 
 #include <cmath>
 
@@ -108,6 +109,35 @@ SceneDescription TwoSquares(bool firstEmits)
 }
 
 // Light exchanged by two patches is the same either way: area times illuminance for one luminance.
+// A lamp in a bubble of clear air, in white smoke up to black walls ten mean free paths away: light
+// crosses the bubble many times before it is absorbed, and diffusion completes that. No power is
+// scaled to what is emitted there: what the light still lacks is within the tolerance.
+TEST(Balance, BubbleInWhiteSmoke)
+{
+  constexpr double tolerance = 0.03;
+  constexpr int cells = 40;
+  SceneDescription scene;
+  scene.Albedo = 1.0;
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(-1.0), Vec3(1.0), {cells, cells, cells}, 14.0);
+  const auto isInside = [](int i) { return std::abs(2 * i + 1 - cells) < 0.3 * cells; };
+  for (int i = 0; i < cells * cells * cells; ++i)
+  {
+    if (isInside(i % cells) && isInside(i / cells % cells) && isInside(i / (cells * cells)))
+    {
+      grid.Extinction[i] = 0.0F;
+    }
+  }
+  scene.Grids = {grid};
+  scenes::AddRoom(scene.Surfaces, Vec3(-1.0), Vec3(1.0), 0.5, 0.0);
+  scene.Emitters = {scenes::Plate({0, 0, 0.02}, {0, 0, -1}, {1, 0, 0}, 0.1, 0.1, 100.0)};
+  const Solved solved(scene, tolerance);
+  EXPECT_GT(WorkCount(solved.Field->Report, "blocks of diffusion"), 0.0);
+  report::Head("Energy balance of a lamp in a bubble [lm]");
+  const Estimate absorbed = solved.AbsorbedOnSurfaces();
+  report::Relative("absorbed by walls", solved.TheScene->Lights().Flux(0), absorbed.Mean, tolerance,
+    absorbed.StandardError);
+}
+
 TEST(Balance, ReciprocityOfTwoPatches)
 {
   report::Head("Reciprocity of two plates through smoke and reflections");

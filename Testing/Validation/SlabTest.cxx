@@ -131,6 +131,34 @@ TEST(Slab, WhiteAndDeep)
   CheckRows(32.0, 32.0, {1.0}, 65, 0.01);
 }
 
+// Clear air between deep white smoke changes nothing: what crosses it comes back many times.
+TEST(Slab, ClearLayerInDeepSmoke)
+{
+  report::Head("Slab with a clear layer in its middle, depth 16, albedo 1");
+  constexpr int layers = 65;
+  scenes::Slab slab = scenes::MakeSlab(16.0, 1.0, layers);
+  SmokeGrid& grid = slab.Description.Grids.front();
+  const std::size_t layer = grid.Extinction.size() / layers;
+  for (float& extinction : grid.Extinction)
+  {
+    extinction *= layers / (layers - 1.0F);
+  }
+  std::fill_n(grid.Extinction.begin() + layers / 2 * layer, layer, 0.0F);
+  const Solved solved(slab.Description);
+  const report::ReferenceTable table("slab_reflectance_transmittance.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    if (table.Text(row, "incidence") == "diffuse" && table.Number(row, "tau0") == 16.0 &&
+        table.Number(row, "omega") == 1.0)
+    {
+      const Estimate through = solved.Illuminance(slab.FarPatches, 0);
+      const Estimate back = solved.Illuminance(slab.NearPatches, 0);
+      report::Relative("T", table.Number(row, "T"), through.Mean, 0.01, through.StandardError);
+      report::Relative("R", table.Number(row, "R"), back.Mean, 0.01, back.StandardError);
+    }
+  }
+}
+
 /// Light that a half-space of smoke sends back of diffuse light that falls in: from
 /// Chandrasekhar's H-function, 1 - 2 sqrt(1 - albedo) times the integral of mu H(mu) over (0, 1).
 double HalfSpaceReflectance(const std::string& albedo)
