@@ -28,7 +28,7 @@ namespace
 
 /// Share of the tolerance that the standard error of the veil is brought down to.
 constexpr double ErrorShare = 0.5;
-/// Standard error of the veil over itself above which nothing is known.
+/// Standard error of the light as a whole over itself above which nothing is known.
 constexpr double LargestError = 10.0;
 /// Share of the tolerance that light may be of which a bound shows that it is no more.
 constexpr double NegligibleShare = 0.25;
@@ -219,7 +219,7 @@ void MultipleSolve::Band(int band)
     .Run();
   const int settling = sweeps.Done() - sweeps.Counted();
   this->Refine(sweeps, probes);
-  if (!(probes.RelativeError(sweeps.States()) <= LargestError))
+  if (!(probes.WholeError(sweeps.States()) <= LargestError))
   {
     throw Error("light field",
       "scattered light is not known: its standard error is many times itself",

@@ -114,10 +114,9 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
   this->Probes_.push_back(std::move(probe));
 }
 
-double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
+std::vector<Lanes> VeilProbes::LightOf(const std::vector<BatchState>& batches) const
 {
   std::vector<Lanes> lights;
-  double sum = 0.0;
   for (const Probe& probe : this->Probes_)
   {
     Lanes light;
@@ -135,8 +134,18 @@ double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
       }
       light[batch] = static_cast<float>(probe.Direct + later / std::max(1, state.Counted));
     }
-    sum += std::max(0.0, Mean(light));
     lights.push_back(light);
+  }
+  return lights;
+}
+
+double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
+{
+  const std::vector<Lanes> lights = this->LightOf(batches);
+  double sum = 0.0;
+  for (const Lanes& light : lights)
+  {
+    sum += std::max(0.0, Mean(light));
   }
   const double floor =
     this->Floor_ + this->MeanShare_ * sum / static_cast<double>(this->Probes_.size());
@@ -153,6 +162,20 @@ double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
     }
   }
   return used > 0 ? std::sqrt(squares / used) : 0.0;
+}
+
+double VeilProbes::WholeError(const std::vector<BatchState>& batches) const
+{
+  double errors = 0.0;
+  double squares = 0.0;
+  for (const Lanes& light : this->LightOf(batches))
+  {
+    const double mean = Mean(light);
+    const double error = StandardError(light);
+    squares += mean * mean;
+    errors += error * error;
+  }
+  return squares > 0.0 ? std::sqrt(errors / squares) : 0.0;
 }
 
 double VeilProbes::LargestShare(

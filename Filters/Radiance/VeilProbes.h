@@ -28,6 +28,9 @@ public:
   /// light (or over a floor where there is next to none), from the running means of the batches.
   double RelativeError(const std::vector<BatchState>& batches) const;
 
+  /// The same of all probes together: what little light there is along one of them may be unknown.
+  double WholeError(const std::vector<BatchState>& batches) const;
+
   /// The largest ratio, over the probes, of what is not direct to the direct light along a probe;
   /// no floor, since a place in the dark beside a bright one may be all that is seen.
   /// @param fluence a cell's, of what is not direct [lx]
@@ -51,6 +54,8 @@ private:
     double SurfaceWeight = 0.0;
   };
 
+  /// The light along each probe by each batch [cd/m2].
+  std::vector<Lanes> LightOf(const std::vector<BatchState>& batches) const;
   /// Sky that shows is left out: it is exact, and would outshine what is not.
   void Add(const Scene& scene, const LightField& field, int band, const Vec3& eye,
     const Vec3& direction, double reach);

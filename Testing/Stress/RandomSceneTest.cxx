@@ -225,6 +225,13 @@ TEST(RandomScenes, Forty)
   RunScenes(1, 40, 2);
 }
 
+// Hardly any light comes to one of the signs: that it is not known there is no reason to refuse the
+// scene.
+TEST(RandomScenes, DarkSign)
+{
+  RunScenes(1327, 1, 1);
+}
+
 TEST(RandomScenes, HundredLong)
 {
   RunScenes(41, 100, 2);
