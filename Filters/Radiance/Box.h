@@ -33,6 +33,13 @@ struct Box
            glm::all(glm::lessThanEqual(point, this->Upper));
   }
 
+  /// Grows it around another.
+  void Add(const Box& other)
+  {
+    this->Lower = glm::min(this->Lower, other.Lower);
+    this->Upper = glm::max(this->Upper, other.Upper);
+  }
+
   /// Shortens a stretch of a line to what lies in the box; returns whether anything does.
   /// @param inverse 1 / direction
   bool Clip(const Vec3& origin, const Vec3& inverse, double& begin, double& end) const

@@ -2,7 +2,6 @@
 
 #include "OpenFaces.h"
 #include "Scene.h"
-#include "Triangle.h"
 
 #include <algorithm>
 #include <array>
@@ -22,14 +21,8 @@ namespace
 /// Optical depth of a block, and how many there are along an axis, at most.
 constexpr double BlockDepth = 1.0;
 constexpr double MostAlongAxis = 32.0;
-/// Mean reflectance, of all surfaces and of those in the smoke, up to which light that they send
-/// back is not much of what smoke does; a tenth by rounding, too.
-constexpr double MostReflectance = 0.1 * (1.0 + 1e-6);
 /// Cells whose middle lies right between blocks: rounding must not decide where they belong.
 constexpr double Aside = 1e-6;
-/// Resistance between blocks in nearly clear air, at least: along a whole axis it is less than
-/// that of a face, and the equations stay easy to solve.
-constexpr double LeastResistance = 0.1;
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
 /// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
@@ -37,19 +30,18 @@ constexpr double SameSize = 1e-6;
 constexpr double SolverTolerance = 1e-3;
 constexpr int MostIterations = 2000;
 
-/// Mean reflectance of those sides of patches that counts(side) is true for.
-template <class Counts> double MeanReflectance(const Scene& scene, int band, Counts&& counts)
+/// Whether a face is the end of the smoke, and no surface stands between it and the cell's middle.
+bool EndsOpen(const Scene& scene, std::int64_t cell, int axis, int side)
 {
-  double area = 0.0;
-  double reflects = 0.0;
-  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
+  if (scene.Smoke().Neighbour(cell, axis, side) >= 0)
   {
-    const double exposed =
-      counts(side) ? scene.ExposedArea(side / 2, static_cast<int>(side % 2)) : 0.0;
-    area += exposed;
-    reflects += exposed * scene.PatchReflectance(side / 2)[band];
+    return false;
   }
-  return area > 0.0 ? reflects / area : 0.0;
+  Vec3 direction(0.0);
+  direction[axis] = side == 0 ? -1.0 : 1.0;
+  const double gap = 10.0 * scene.Shapes().Tolerance();
+  return !scene.Shapes().Occluded(
+    scene.Smoke().CellCentre(cell), direction, 0.0, 0.5 * scene.Smoke().CellSize(cell)[axis] + gap);
 }
 
 double FaceArea(const Vec3& size, int axis)
@@ -57,62 +49,24 @@ double FaceArea(const Vec3& size, int axis)
   return size[(axis + 1) % 3] * size[(axis + 2) % 3];
 }
 
-/// Net flux over a difference of fluence across some optical depth, by Fick's law. Light that is
-/// even inside a thick block comes to a face from its own side alone, which is a quarter of the
-/// fluence: that bounds the resistance, or else too much would be completed.
-double Resistance(double depth, double atFaces)
-{
-  return std::clamp(3.0 * depth, LeastResistance, 4.0 - atFaces);
-}
-
-/// Irradiance of a surface over the fluence at some optical depth before it: by Marshak's condition
-/// it is half the fluence there and the net flux.
-double IncidentShare(double reflectance, double depth)
-{
-  return 1.0 / (2.0 * (1.0 + reflectance) + Resistance(depth, 2.0) * (1.0 - reflectance));
-}
-
 } // namespace
 
 /// Sums over the cells of a block, and over what bounds it.
 struct DiffusionBlocks::Sums
 {
-  /// Of the box that it lies in.
+  /// Of the box that it lies in, at least that of its largest cell [m].
   Vec3 Size = Vec3(0.0);
   double Volume = 0.0, Capture = 0.0;
   Vec3 Moment = Vec3(0.0);
-  /// Area across each axis through which light leaves the smoke [m2].
-  Vec3 Closed = Vec3(0.0);
-  /// What surfaces absorb over the fluence [m2]; also of those that stand inside of it.
-  double Absorbed = 0.0;
+  /// Area across each axis where the smoke ends and no surface is [m2].
+  Vec3 Open = Vec3(0.0);
 
   double Extinction() const { return this->Capture / this->Volume; }
   Vec3 Centre() const { return this->Moment / this->Volume; }
 };
 
-std::optional<DiffusionBlocks> DiffusionBlocks::Where(
-  const Scene& scene, int band, const std::vector<float>& extinction)
-{
-  std::optional<DiffusionBlocks> blocks;
-  if (MeanReflectance(scene, band, [](std::size_t) { return true; }) <= MostReflectance)
-  {
-    blocks.emplace(scene, band, extinction);
-    const auto inSmoke = [&blocks](std::size_t side)
-    {
-      const std::int32_t block = blocks->Sides_[side].Block;
-      return block >= 0 && blocks->Capture_[block] > 0.0;
-    };
-    if (MeanReflectance(scene, band, inSmoke) > MostReflectance)
-    {
-      blocks.reset();
-    }
-  }
-  return blocks;
-}
-
 DiffusionBlocks::DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction)
-    : Block_(extinction.size(), -1), Scattering_(extinction.size(), 0.0F),
-      Sides_(2 * scene.Patches())
+    : Block_(extinction.size(), -1), Scattering_(extinction.size(), 0.0F)
 {
   std::vector<Sums> blocks = this->FormBlocks(scene, extinction);
   const Areas between = this->FindFaces(scene, blocks);
@@ -184,6 +138,7 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
     this->Block_[i] = number;
     this->Scattering_[i] = static_cast<float>(scene.Albedo() * extinction[i] * own);
     Sums& block = blocks[number];
+    block.Size = glm::max(block.Size, smoke.CellSize(static_cast<std::int64_t>(i)));
     block.Volume += own;
     block.Capture += extinction[i] * own;
     block.Moment += own * (smoke.CellCentre(static_cast<std::int64_t>(i)) - smoke.Lower());
@@ -219,7 +174,7 @@ DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
       const std::int32_t to = other < 0 ? -1 : this->Block_[other];
       if (to < 0)
       {
-        blocks[from].Closed[axis] += area;
+        blocks[from].Open[axis] += EndsOpen(scene, cell, axis, side) ? area : 0.0;
       }
       else if (to != from)
       {
@@ -231,47 +186,22 @@ DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
   return between;
 }
 
-void DiffusionBlocks::FindSides(const Scene& scene, int band, std::vector<Sums>& blocks)
+void DiffusionBlocks::FindSides(const Scene& scene, int band, const std::vector<Sums>& blocks)
 {
   const Medium& smoke = scene.Smoke();
-  const double offset = 10.0 * scene.Shapes().Tolerance();
-  std::vector<double> largest(this->Sides_.size(), 0.0);
-  scene.ForEachTriangle(
-    [&](std::size_t patch, const Triangle& corners)
-    {
-      const Vec3 vector = AreaVector(corners);
-      const double area = glm::length(vector);
-      for (std::size_t which = 0; which < 2; ++which)
-      {
-        const std::size_t side = 2 * patch + which;
-        const double exposed = scene.ExposedArea(patch, static_cast<int>(which));
-        if (!(area > largest[side] && exposed > 0.0))
-        {
-          continue;
-        }
-        const Vec3 normal = (which == 0 ? 1.0 : -1.0) / area * vector;
-        const std::int64_t cell = smoke.Locate(CentreOf(corners) + offset * normal);
-        const std::int32_t block = cell < 0 ? -1 : this->Block_[cell];
-        if (block < 0)
-        {
-          continue;
-        }
-        largest[side] = area;
-        const double reflectance = scene.PatchReflectance(patch)[band];
-        const double depth =
-          0.5 * blocks[block].Extinction() * glm::dot(glm::abs(normal), blocks[block].Size);
-        this->Sides_[side] = {block, static_cast<float>(IncidentShare(reflectance, depth))};
-      }
-    });
-  for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+  const auto block = [&](const Vec3& point)
   {
-    const Side& own = this->Sides_[side];
-    if (own.Block >= 0)
-    {
-      blocks[own.Block].Absorbed += scene.ExposedArea(side / 2, static_cast<int>(side % 2)) *
-                                    (1.0 - scene.PatchReflectance(side / 2)[band]) * own.Share;
-    }
-  }
+    const std::int64_t cell = smoke.Locate(point);
+    return cell < 0 ? -1 : this->Block_[cell];
+  };
+  const auto depth = [&](std::int32_t beside, const Vec3& normal)
+  {
+    const Sums& own = blocks[beside];
+    return 0.5 * own.Extinction() * glm::dot(glm::abs(normal), own.Size);
+  };
+  const Vec3 size = blocks.front().Size;
+  this->Sides_.emplace(
+    scene, band, block, depth, blocks.size(), std::min({size.x, size.y, size.z}));
 }
 
 void DiffusionBlocks::FormOperator(
@@ -283,27 +213,29 @@ void DiffusionBlocks::FormOperator(
     const auto [one, other] = pair;
     const double depth = 0.5 * (blocks[one].Extinction() + blocks[other].Extinction()) *
                          glm::distance(blocks[one].Centre(), blocks[other].Centre());
-    const double passes = area / Resistance(depth, 0.0);
+    const double passes = area / DiffusionResistance(depth, 0.0);
     entries.emplace_back(one, one, passes);
     entries.emplace_back(one, other, -passes);
     entries.emplace_back(other, other, passes);
     entries.emplace_back(other, one, -passes);
   }
-  for (const Sums& block : blocks)
+  for (std::size_t i = 0; i < blocks.size(); ++i)
   {
+    const Sums& block = blocks[i];
     double leaves = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      leaves +=
-        block.Closed[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
+      leaves += block.Open[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
     }
     // Even light brings a quarter of its fluence to a surface: what absorbs more than all around
     // the block belongs to others, too.
-    const double lost = std::max(leaves, std::min(block.Absorbed, 0.25 * BoxSurface(block.Size)));
-    const auto index = static_cast<Eigen::Index>(this->Capture_.size());
+    const double absorbed = this->Sides_->Absorbed(i);
+    const double lost = leaves + std::min(absorbed, 0.25 * BoxSurface(block.Size));
+    const auto index = static_cast<Eigen::Index>(i);
     entries.emplace_back(index, index, (1.0 - albedo) * block.Capture + lost);
+    this->Loss_ += (1.0 - albedo) * block.Capture + lost;
     this->Capture_.push_back(block.Capture);
-    this->Escape_.push_back(lost - block.Absorbed);
+    this->Escape_.push_back(lost - absorbed);
   }
   const auto count = static_cast<Eigen::Index>(blocks.size());
   this->Operator_.resize(count, count);
@@ -335,11 +267,9 @@ void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
     batch.FluenceSum[cell] +=
       this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lacks[this->Block_[cell]]);
   }
-  for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+  for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
   {
-    const Side& own = this->Sides_[side];
-    batch.IlluminanceSum[side] +=
-      own.Block < 0 ? 0.0F : own.Share * static_cast<float>(lacks[own.Block]);
+    batch.IlluminanceSum[side] += static_cast<float>(this->Sides_->Illuminance(side, lacks));
   }
 }
 
@@ -399,11 +329,10 @@ void DiffusionBlocks::Complete(const Lack& lack, std::vector<BatchState>& batche
         batch.Fluence[cell] +=
           this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lack.Fluence[this->Block_[cell]]);
       }
-      for (std::size_t side = 0; side < this->Sides_.size(); ++side)
+      for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
       {
-        const Side& own = this->Sides_[side];
         batch.Illuminance[side] +=
-          own.Block < 0 ? 0.0F : own.Share * static_cast<float>(lack.Fluence[own.Block]);
+          static_cast<float>(this->Sides_->Illuminance(side, lack.Fluence));
       }
       std::fill(batch.Lacking.begin(), batch.Lacking.end(), 0.0);
     });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BatchState.h"
+#include "DiffusionSides.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,12 +29,9 @@ class DiffusionBlocks
 public:
   /// @param extinction of each cell in the band [1/m]
   DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
-  /// Those of a scene whose surfaces reflect little; else none: what walls send back for long is
-  /// not completed, and would be taken for known.
-  static std::optional<DiffusionBlocks> Where(
-    const Scene& scene, int band, const std::vector<float>& extinction);
-
   std::size_t Count() const { return this->Capture_.size(); }
+  /// Whether light is lost anywhere: else there is nothing that it would come to.
+  bool Loses() const { return this->Loss_ > 0.0; }
 
   /// Adds what a sweep would change of a cell's fluence [lx] to the residual of its block [lm].
   void AddResidual(std::size_t cell, double change, std::vector<double>& residual) const
@@ -43,6 +41,7 @@ public:
       residual[this->Block_[cell]] += this->Scattering_[cell] * change;
     }
   }
+  const DiffusionSides& Sides() const { return *this->Sides_; }
   /// Adds to the sums of a batch, and to its Lacking, what its sweeps lack by its residual, and
   /// empties that.
   /// @param step share of that
@@ -66,14 +65,6 @@ public:
   void Complete(const Lack& lack, std::vector<BatchState>& batches) const;
 
 private:
-  /// What sides of patches have to do with the blocks that they bound.
-  struct Side
-  {
-    std::int32_t Block = -1;
-    /// Illuminance over the block's fluence.
-    float Share = 0.0F;
-  };
-
   /// Sums over the cells of a block, and over what bounds it.
   struct Sums;
   /// Between pairs of blocks [m2].
@@ -82,18 +73,20 @@ private:
   std::vector<Sums> FormBlocks(const Scene& scene, const std::vector<float>& extinction);
   /// Also adds to the blocks the area that bounds them.
   Areas FindFaces(const Scene& scene, std::vector<Sums>& blocks) const;
-  void FindSides(const Scene& scene, int band, std::vector<Sums>& blocks);
+  void FindSides(const Scene& scene, int band, const std::vector<Sums>& blocks);
   void FormOperator(double albedo, const std::vector<Sums>& blocks, const Areas& between);
 
   /// Block of each cell, or -1 inside of walls, and scattering coefficient times volume [m2].
   std::vector<std::int32_t> Block_;
   std::vector<float> Scattering_;
-  std::vector<Side> Sides_;
+  std::optional<DiffusionSides> Sides_;
   /// Extinction coefficient times volume of each block [m2].
   std::vector<double> Capture_;
   /// Power that leaves each block, less what its sides absorb of it, over its fluence [m2]: over
   /// all blocks what leaves the scene.
   std::vector<double> Escape_;
+  /// Power that is absorbed or leaves the scene, over a fluence that is the same everywhere [m2].
+  double Loss_ = 0.0;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
   Eigen::SparseMatrix<double> Operator_;
 };

@@ -46,55 +46,57 @@ void DrawThrough(const Box& box, const std::array<double, 4>& random, Vec3& orig
 
 } // namespace
 
-GlobalLines::GlobalLines(const Box& scene, std::size_t lines)
-    : Scene_(scene), Lines_(lines),
-      // All directed lines through a convex body measure pi times its surface. Each line drawn
-      // serves in both of its directions.
-      Weight_(glm::half_pi<double>() * scene.Surface() / static_cast<double>(lines)),
-      InnerWeight_(this->Weight_)
+GlobalLines::GlobalLines(const Box& scene, std::size_t lines) : Kinds_{{scene, lines, lines}}
 {
 }
 
 void GlobalLines::AddInner(const Box& inner, std::size_t lines)
 {
-  this->Inner_ = inner;
-  this->InnerLines_ = lines;
-  this->InnerWeight_ = glm::half_pi<double>() / this->Meetings(1.0, true);
+  this->Kinds_.push_back({inner, lines, this->Count() + lines});
 }
 
 GlobalLines GlobalLines::Thinned(double share) const
 {
-  const auto part = [share](std::size_t lines)
-  { return static_cast<std::size_t>(std::ceil(share * static_cast<double>(lines))); };
-  GlobalLines thinned(this->Scene_, part(this->Lines_));
-  if (this->Inner_)
+  const auto part = [share](const Kind& kind)
+  { return static_cast<std::size_t>(std::ceil(share * static_cast<double>(kind.Lines))); };
+  GlobalLines thinned(this->Outer(), part(this->Kinds_.front()));
+  for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
   {
-    thinned.AddInner(*this->Inner_, part(this->InnerLines_));
+    thinned.AddInner(kind->Through, part(*kind));
   }
   return thinned;
 }
 
-double GlobalLines::Meetings(double area, bool inside) const
+double GlobalLines::Meetings(double area, const Box& bounds) const
 {
-  const double outer = static_cast<double>(this->Lines_) * area / this->Scene_.Surface();
-  return this->Inner_ && inside
-           ? outer + static_cast<double>(this->InnerLines_) * area / this->Inner_->Surface()
-           : outer;
+  double density = this->Kinds_.front().Density();
+  for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
+  {
+    const bool inside =
+      kind->Through.Contains(bounds.Lower) && kind->Through.Contains(bounds.Upper);
+    density += inside ? kind->Density() : 0.0;
+  }
+  return area * density;
 }
 
-GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key)
-    : Lines_(lines), Key_(key), Points_(key), InnerPoints_(Mix(key))
+GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key) : Lines_(lines), Key_(key)
 {
+  for (std::size_t kind = 0; kind < lines.Kinds_.size(); ++kind)
+  {
+    this->Points_.emplace_back(key);
+    key = Mix(key);
+  }
 }
 
 GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
 {
-  const GlobalLines& lines = this->Lines_;
+  const std::vector<Kind>& kinds = this->Lines_.Kinds_;
+  const auto drawn = std::find_if(
+    kinds.begin(), kinds.end(), [index](const Kind& kind) { return index < kind.End; });
   Line line;
-  const bool drawnInside = index >= lines.Lines_;
-  DrawThrough(drawnInside ? *lines.Inner_ : lines.Scene_,
-    drawnInside ? this->InnerPoints_.Point(index - lines.Lines_) : this->Points_.Point(index),
-    line.Origin, line.Direction);
+  DrawThrough(drawn->Through,
+    this->Points_[drawn - kinds.begin()].Point(index - (drawn->End - drawn->Lines)), line.Origin,
+    line.Direction);
   const Vec3 inverse = 1.0 / line.Direction;
   const auto stretch = [&](const Box& box)
   {
@@ -102,17 +104,19 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
     box.Clip(line.Origin, inverse, ends.first, ends.second);
     return ends;
   };
-  bool meetsInner = drawnInside;
-  if (lines.Inner_ && !drawnInside)
+  double density = kinds.front().Density();
+  for (auto kind = kinds.begin() + 1; kind != kinds.end(); ++kind)
   {
-    const auto [enter, leave] = stretch(*lines.Inner_);
-    meetsInner = leave > enter;
+    const auto [enter, leave] = stretch(kind->Through);
+    density += kind == drawn || leave > enter ? kind->Density() : 0.0;
   }
-  const auto [begin, end] = stretch(lines.Scene_);
+  const auto [begin, end] = stretch(kinds.front().Through);
   line.Origin += begin * line.Direction;
   line.Length = end - begin;
   line.Random = ToUnit(Mix(this->Key_ ^ Mix(index)));
-  line.Weight = meetsInner ? lines.InnerWeight_ : lines.Weight_;
+  // All directed lines through a convex body measure pi times its surface. Each line drawn serves
+  // in both of its directions.
+  line.Weight = glm::half_pi<double>() / density;
   return line;
 }
 

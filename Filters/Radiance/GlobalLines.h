@@ -6,13 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 namespace smokevis
 {
 
-/// Lines of the uniform measure that meet the scene's box and, where the smoke fills little of it,
-/// further ones that meet the smoke's. Each counts by the density of both kinds together (the
+/// Lines of the uniform measure that meet the scene's box and, where things lie closer together,
+/// further ones that meet boxes in it. Each counts by the density of all kinds together (the
 /// balance heuristic of Veach and Guibas 1995), so that sums over all of them have no bias.
 class GlobalLines
 {
@@ -30,20 +30,19 @@ public:
 
   GlobalLines(const Box& scene, std::size_t lines);
   /// @param inner box inside the scene's
-  /// @param lines through it, beside those through the scene
+  /// @param lines through it, beside all others
   void AddInner(const Box& inner, std::size_t lines);
 
   /// The same with a share of the lines, each of which counts for more.
   GlobalLines Thinned(double share) const;
 
-  std::size_t Count() const { return this->Lines_ + this->InnerLines_; }
-  const Box& Outer() const { return this->Scene_; }
-  const std::optional<Box>& Inner() const { return this->Inner_; }
+  std::size_t Count() const { return this->Kinds_.back().End; }
+  const Box& Outer() const { return this->Kinds_.front().Through; }
   /// How many of them are expected to meet a convex body (Cauchy's formula); at least so many where
-  /// it lies outside the inner box.
+  /// it does not lie in one of the inner boxes.
   /// @param area of its surface; a plate has two sides [m2]
-  /// @param inside whether it lies in the inner box
-  double Meetings(double area, bool inside) const;
+  /// @param bounds of it
+  double Meetings(double area, const Box& bounds) const;
 
   /// One draw of all lines.
   class Draw
@@ -56,16 +55,25 @@ public:
   private:
     const GlobalLines& Lines_;
     std::uint64_t Key_;
-    EvenPoints Points_, InnerPoints_;
+    /// Of each kind.
+    std::vector<EvenPoints> Points_;
   };
 
 private:
-  Box Scene_;
-  std::optional<Box> Inner_;
-  std::size_t Lines_;
-  std::size_t InnerLines_ = 0;
-  /// Of lines that miss the inner box, and of those that meet it.
-  double Weight_, InnerWeight_;
+  /// Lines drawn through one box.
+  struct Kind
+  {
+    Box Through;
+    std::size_t Lines;
+    /// Behind its last among all lines.
+    std::size_t End;
+
+    /// Lines a unit of surface [1/m2].
+    double Density() const { return static_cast<double>(this->Lines) / this->Through.Surface(); }
+  };
+
+  /// The scene's first.
+  std::vector<Kind> Kinds_;
 };
 
 } // namespace smokevis

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <map>
 
 namespace smokevis
@@ -22,6 +24,8 @@ constexpr double FineTolerance = 0.03;
 constexpr double MostTimes = 2.0;
 /// How many times the smoke's box the scene's must be for lines through the smoke's alone.
 constexpr double InnerRatio = 3.0;
+/// How many times as many lines grids need at least that get some of their own.
+constexpr double MuchFiner = 2.0;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.75;
 
@@ -63,20 +67,89 @@ double LinesForPatches(
            : 0.0;
 }
 
+/// Grids whose cells are about as large.
+struct CellGroup
+{
+  double Cells = 0.0;
+  /// Surface of all their cells [m2].
+  double Boundary = 0.0;
+  std::vector<Box> Boxes;
+
+  /// Lines a unit of surface of a convex body, by Cauchy's formula, that cross a cell often enough.
+  double Density() const { return CrossingsPerSweep * this->Cells / this->Boundary; }
+};
+
+/// Those of the largest cells first.
+std::vector<CellGroup> CellGroups(const Medium& smoke)
+{
+  std::vector<CellGroup> grids;
+  for (const Medium::Block& grid : smoke.Blocks(std::numeric_limits<int>::max()))
+  {
+    CellGroup& own = grids.emplace_back();
+    own.Cells = static_cast<double>(grid.Cells());
+    grid.ForEachCell([&](const std::array<int, 3>& place)
+      { own.Boundary += BoxSurface(smoke.CellSize(smoke.Cell(grid, place))); });
+    Box bounds = smoke.BoxOf(smoke.Cell(grid, {0, 0, 0}));
+    bounds.Add(
+      smoke.BoxOf(smoke.Cell(grid, {grid.Size[0] - 1, grid.Size[1] - 1, grid.Size[2] - 1})));
+    own.Boxes.push_back(bounds);
+  }
+  std::sort(grids.begin(), grids.end(),
+    [](const CellGroup& a, const CellGroup& b) { return a.Density() < b.Density(); });
+  std::vector<CellGroup> groups;
+  double least = 0.0;
+  for (const CellGroup& grid : grids)
+  {
+    if (groups.empty() || grid.Density() > MuchFiner * least)
+    {
+      groups.emplace_back();
+      least = grid.Density();
+    }
+    CellGroup& group = groups.back();
+    group.Cells += grid.Cells;
+    group.Boundary += grid.Boundary;
+    group.Boxes.insert(group.Boxes.end(), grid.Boxes.begin(), grid.Boxes.end());
+  }
+  return groups;
+}
+
+/// Puts boxes into one that lines need not meet more often than both.
+void MergeWhereSmaller(std::vector<Box>& boxes)
+{
+  for (std::size_t one = 0; one < boxes.size(); ++one)
+  {
+    for (std::size_t other = 0; other < one; ++other)
+    {
+      Box both = boxes[one];
+      both.Add(boxes[other]);
+      if (both.Surface() <= boxes[one].Surface() + boxes[other].Surface())
+      {
+        boxes[other] = both;
+        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(one));
+        // Others may fit now.
+        one = 0;
+        break;
+      }
+    }
+  }
+}
+
 } // namespace
 
-std::vector<bool> PatchesIn(const Scene& scene, const Box& box)
+std::vector<Box> PatchBounds(const Scene& scene)
 {
-  std::vector<bool> inside(scene.Patches(), true);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Box> bounds(scene.Patches(), {Vec3(infinity), Vec3(-infinity)});
   scene.ForEachTriangle(
-    [&](std::size_t patch, const Triangle& corners)
-    {
-      for (const Vec3& corner : corners)
-      {
-        inside[patch] = inside[patch] && box.Contains(corner);
-      }
-    });
-  return inside;
+    [&](std::size_t patch, const Triangle& corners) { bounds[patch].Add(BoundsOf(corners)); });
+  return bounds;
+}
+
+double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell)
+{
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 size = smoke.CellSize(cell);
+  return lines.Meetings(BoxSurface(size), {centre - 0.5 * size, centre + 0.5 * size});
 }
 
 bool ScattersOften(const Scene& scene, int band)
@@ -102,31 +175,47 @@ GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)
 {
   const Medium& smoke = scene.Smoke();
   const double meetings = CrossingsPerSweep * std::clamp(FineTolerance / tolerance, 1.0, MostTimes);
-  double boundary = 0.0;
-  for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
-  {
-    boundary += BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell)));
-  }
   const auto count = [](double lines)
   { return static_cast<std::size_t>(std::ceil(std::max(FewestLines, lines))); };
+  std::vector<CellGroup> groups = CellGroups(smoke);
+  const double density = groups.empty() ? 0.0 : groups.front().Density();
   const Box box = SceneBox(scene);
-  // By Cauchy's formula a line meets a convex body in proportion to its surface.
-  const double linesPerArea =
-    boundary > 0.0 ? CrossingsPerSweep * static_cast<double>(smoke.Cells()) / boundary : 0.0;
   const double margin = 1e-4 * glm::length(smoke.Upper() - smoke.Lower());
-  const Box inner = {
-    glm::max(box.Lower, smoke.Lower() - margin), glm::min(box.Upper, smoke.Upper() + margin)};
-  if (smoke.Empty() || box.Surface() < InnerRatio * inner.Surface())
+  const auto within = [&](const Box& part) {
+    return Box{glm::max(box.Lower, part.Lower - margin), glm::min(box.Upper, part.Upper + margin)};
+  };
+  const Box inner = within({smoke.Lower(), smoke.Upper()});
+  std::vector<bool> inside(scene.Patches(), true);
+  const bool divided = !smoke.Empty() && box.Surface() >= InnerRatio * inner.Surface();
+  if (divided)
   {
-    const std::vector<bool> all(scene.Patches(), true);
-    return {box, count(std::max(linesPerArea * box.Surface(),
-                   LinesForPatches(scene, band, meetings, box, all)))};
+    const std::vector<Box> bounds = PatchBounds(scene);
+    std::transform(bounds.begin(), bounds.end(), inside.begin(),
+      [&](const Box& patch) { return inner.Contains(patch.Lower) && inner.Contains(patch.Upper); });
   }
-  std::vector<bool> inside = PatchesIn(scene, inner);
-  const double forInside = LinesForPatches(scene, band, meetings, inner, inside);
+  const Box& main = divided ? inner : box;
+  const std::size_t mainLines =
+    count(std::max(density * main.Surface(), LinesForPatches(scene, band, meetings, main, inside)));
   inside.flip();
-  GlobalLines lines(box, count(LinesForPatches(scene, band, meetings, box, inside)));
-  lines.AddInner(inner, count(std::max(linesPerArea * inner.Surface(), forInside)));
+  GlobalLines lines(
+    box, divided ? count(LinesForPatches(scene, band, meetings, box, inside)) : mainLines);
+  if (divided)
+  {
+    lines.AddInner(inner, mainLines);
+  }
+  for (std::size_t i = 1; i < groups.size(); ++i)
+  {
+    MergeWhereSmaller(groups[i].Boxes);
+    for (const Box& part : groups[i].Boxes)
+    {
+      const Box fine = within(part);
+      const double lacking = groups[i].Density() - lines.Meetings(1.0, fine);
+      if (lacking > 0.0)
+      {
+        lines.AddInner(fine, static_cast<std::size_t>(std::ceil(lacking * fine.Surface())));
+      }
+    }
+  }
   return lines;
 }
 

@@ -3,23 +3,29 @@
 
 #include "GlobalLines.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace smokevis
 {
 
+class Medium;
 class Scene;
 
 /// Lines through the scene that cross a smoke cell of mean size about 1.5 times and meet each patch
 /// that sends light on or out as often, in the mean; these more often below a tolerance of 0.03, so
-/// that they need not be put together (PatchGroups).
+/// that they need not be put together (PatchGroups). Grids of much smaller cells get lines of their
+/// own.
 GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
+
+/// How many of the lines are expected to meet a smoke cell.
+double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell);
 
 /// Whether the smoke as a whole sends nearly all that it takes up on and on: light then is where
 /// few of a sweep's lines alone would not tell it from their number.
 bool ScattersOften(const Scene& scene, int band);
 
-/// Which patches lie in a box.
-std::vector<bool> PatchesIn(const Scene& scene, const Box& box);
+/// The boxes that patches just fit in.
+std::vector<Box> PatchBounds(const Scene& scene);
 
 } // namespace smokevis

@@ -68,25 +68,27 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   this->CellCrossings_.resize(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    this->CellCrossings_[cell] = static_cast<float>(
-      this->Lines_.Meetings(BoxSurface(smoke.CellSize(static_cast<std::int64_t>(cell))), true));
+    this->CellCrossings_[cell] =
+      static_cast<float>(CellMeetings(this->Lines_, smoke, static_cast<std::int64_t>(cell)));
   }
-  const std::vector<bool> inside =
-    PatchesIn(scene, this->Lines_.Inner().value_or(this->Lines_.Outer()));
+  const std::vector<Box> bounds = PatchBounds(scene);
   this->SideHits_.resize(2 * scene.Patches());
   for (std::size_t side = 0; side < this->SideHits_.size(); ++side)
   {
     this->SideHits_[side] = static_cast<float>(
-      this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), inside[side / 2]));
+      this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), bounds[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
   this->ThinLines_ =
     this->ThinLines_.Thinned(std::min(share, std::max(ThinShare, share * this->HitsShare())));
   this->Steps_ = CellSteps(scene, this->Extinction_, this->CellCrossings_, often);
-  // What thick cells send to themselves is summed up for them alone.
-  if (often && this->Thick_.Count() == 0)
+  if (often)
   {
-    this->Blocks_ = DiffusionBlocks::Where(scene, band, this->Extinction_);
+    this->Blocks_.emplace(scene, band, this->Extinction_);
+    if (!this->Blocks_->Loses())
+    {
+      this->Blocks_.reset();
+    }
   }
 }
 
@@ -242,6 +244,10 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {
     const float estimate = estimates[side];
+    if (this->Blocks_)
+    {
+      this->Blocks_->Sides().AddResidual(side, estimate - state.Illuminance[side], state.Residual);
+    }
     // What few lines meet sends on a mean of sweeps: a light that is large as rarely as it is found
     // would come back larger.
     const float share =

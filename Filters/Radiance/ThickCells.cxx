@@ -2,6 +2,7 @@
 
 #include "ExponentialMean.h"
 #include "GlobalLines.h"
+#include "LineChoice.h"
 #include "LinePieces.h"
 #include "Progress.h"
 #include "Scene.h"
@@ -66,8 +67,7 @@ ThickCells::ThickCells(const Scene& scene, const std::vector<float>& extinction,
       continue;
     }
     this->Orders_[i] = static_cast<float>(1.0 / (1.0 - returned(escape)));
-    const auto meetings =
-      static_cast<float>(lines.Meetings(BoxSurface(smoke.CellSize(cell)), true));
+    const auto meetings = static_cast<float>(CellMeetings(lines, smoke, cell));
     this->Orders_[i] = this->Gain(i, meetings) < SmallestGain ? 0.0F : this->Orders_[i];
   }
 }

@@ -89,20 +89,49 @@ TEST(DiffusionBlocks, SurfacesAndAWall)
   EXPECT_NEAR(batch.FluenceSum[14], 1.5 * 3.5 * 4.0 + 7.5, 2.0);
 }
 
-// What walls send back for long is left to sweeps.
-TEST(DiffusionBlocks, OnlyWhereSurfacesReflectLittle)
+// A wall below sends on what sweeps found more of: by Fick's law and Marshak's conditions at the
+// wall and where light leaves above, the fluence falls from (2 + 3 L) J to 2 J, where J is the net
+// flux, 2 s / (1 + rho) less (1 - rho) / (1 + rho) times half the fluence at the wall.
+TEST(DiffusionBlocks, ReflectingWall)
 {
-  constexpr double width = 3e3;
-  const auto present = [&](double reflectance)
+  constexpr double width = 100.0;
+  for (const double reflectance : {0.5, 1.0})
   {
     SceneDescription description = Slab(width);
+    // More finely parted than blocks, and less.
     scenes::AddRectangle(
-      description.Surfaces, Vec3(0.0), {width, 0, 0}, {0, width, 0}, 1, 1, reflectance);
-    return DiffusionBlocks::Where(Scene(description), 0, std::vector<float>(Layers, 1.0F))
-      .has_value();
-  };
-  EXPECT_TRUE(present(0.09));
-  EXPECT_FALSE(present(0.3));
+      description.Surfaces, Vec3(0.0), {width, 0, 0}, {0, width, 0}, 3, 3, reflectance);
+    // All around white.
+    const Vec3 up(0.0, 0.0, Depth);
+    for (const auto& [corner, edge] :
+      {std::pair(Vec3(0.0), Vec3(width, 0, 0)), std::pair(Vec3(0, width, 0), Vec3(width, 0, 0)),
+        std::pair(Vec3(0.0), Vec3(0, width, 0)), std::pair(Vec3(width, 0, 0), Vec3(0, width, 0))})
+    {
+      scenes::AddRectangle(description.Surfaces, corner, edge, up, 1, 1, 1.0);
+    }
+    const Scene scene(description);
+    const DiffusionBlocks blocks(scene, 0, std::vector<float>(Layers, 1.0F));
+    BatchState batch = Empty(blocks, 2 * scene.Patches());
+    for (std::size_t patch = 0; patch < 9; ++patch)
+    {
+      blocks.Sides().AddResidual(2 * patch, 1.0, batch.Residual);
+    }
+    blocks.CompleteSums(1.0, batch);
+    const double back = (1.0 - reflectance) / (1.0 + reflectance);
+    const double flux =
+      2.0 * reflectance / (1.0 + reflectance) / (1.0 + 0.5 * back * (2.0 + 3.0 * Depth));
+    for (const double x : {0.5, 7.5, 14.5})
+    {
+      const double expected = flux * (2.0 + 3.0 * (Depth - x));
+      EXPECT_NEAR(batch.FluenceSum[static_cast<std::size_t>(x / Depth * Layers)], expected,
+        0.03 * expected + 0.1 * flux)
+        << "reflectance " << reflectance << ", depth " << x;
+    }
+    // By the fluence half a mean free path away alone.
+    const double illuminance =
+      flux * (0.5 + 3.0 * Depth) / (2.0 * (1.0 + reflectance) + 1.5 * (1.0 - reflectance));
+    EXPECT_NEAR(batch.IlluminanceSum[0], illuminance, 0.02 * illuminance);
+  }
 }
 
 // Noise is not completed, and what all batches agree on is, by its mean.

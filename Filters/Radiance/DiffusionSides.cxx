@@ -1,0 +1,129 @@
+#include "DiffusionSides.h"
+
+#include "Scene.h"
+#include "Triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Resistance between blocks in nearly clear air, at least: along a whole axis it is less than
+/// that of a face, and the equations stay easy to solve.
+constexpr double LeastResistance = 0.1;
+/// Rows of points that stand for a triangle: as many for the length of a block, and at most in all.
+constexpr double PartsAnEdge = 8.0;
+constexpr double MostRows = 64.0;
+
+/// Calls visit(point) for the centres of rows x rows equal triangles that make one up.
+template <class Visit> void ForEachPart(const Triangle& corners, int rows, Visit&& visit)
+{
+  const Vec3 along = (corners[1] - corners[0]) / static_cast<double>(rows);
+  const Vec3 across = (corners[2] - corners[0]) / static_cast<double>(rows);
+  for (int i = 0; i < rows; ++i)
+  {
+    for (int j = 0; i + j < rows; ++j)
+    {
+      visit(corners[0] + (i + 1.0 / 3.0) * along + (j + 1.0 / 3.0) * across);
+      if (i + j + 1 < rows)
+      {
+        visit(corners[0] + (i + 2.0 / 3.0) * along + (j + 2.0 / 3.0) * across);
+      }
+    }
+  }
+}
+
+} // namespace
+
+double DiffusionResistance(double depth, double atFaces)
+{
+  return std::clamp(3.0 * depth, LeastResistance, 4.0 - atFaces);
+}
+
+double IncidentShare(double reflectance, double depth)
+{
+  return 1.0 / (2.0 * (1.0 + reflectance) + DiffusionResistance(depth, 2.0) * (1.0 - reflectance));
+}
+
+DiffusionSides::DiffusionSides(const Scene& scene, int band,
+  const std::function<std::int32_t(const Vec3&)>& block,
+  const std::function<double(std::int32_t, const Vec3&)>& depth, std::size_t blocks, double edge)
+    : Absorbed_(blocks, 0.0)
+{
+  /// Area that lies beside a block, and the same times the irradiance over the block's fluence.
+  struct Bounds
+  {
+    std::size_t Side;
+    std::int32_t Block;
+    double Area, Incident;
+  };
+  std::vector<Bounds> bounds;
+  const double offset = 10.0 * scene.Shapes().Tolerance();
+  scene.ForEachTriangle(
+    [&](std::size_t patch, const Triangle& corners)
+    {
+      const Vec3 vector = AreaVector(corners);
+      const double area = glm::length(vector);
+      if (!(area > 0.0))
+      {
+        return;
+      }
+      const int rows = static_cast<int>(
+        std::clamp(std::ceil(PartsAnEdge * ReachOf(corners) / edge), 1.0, MostRows));
+      for (int which = 0; which < 2; ++which)
+      {
+        const Vec3 normal = (which == 0 ? 1.0 : -1.0) / area * vector;
+        if (!(scene.ExposedArea(patch, which) > 0.0))
+        {
+          continue;
+        }
+        ForEachPart(corners, rows,
+          [&](const Vec3& point)
+          {
+            const std::int32_t beside = block(point + offset * normal);
+            if (beside >= 0)
+            {
+              const double part = area / (static_cast<double>(rows) * rows);
+              bounds.push_back({2 * patch + which, beside, part,
+                part * IncidentShare(scene.PatchReflectance(patch)[band], depth(beside, normal))});
+            }
+          });
+      }
+    });
+  std::sort(bounds.begin(), bounds.end(),
+    [](const Bounds& a, const Bounds& b)
+    { return std::pair(a.Side, a.Block) < std::pair(b.Side, b.Block); });
+  this->First_.assign(1, 0);
+  auto at = bounds.cbegin();
+  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
+  {
+    const double exposed = scene.ExposedArea(side / 2, static_cast<int>(side % 2));
+    const double reflectance = scene.PatchReflectance(side / 2)[band];
+    const auto end =
+      std::find_if(at, bounds.cend(), [&](const Bounds& b) { return b.Side != side; });
+    const double area =
+      std::accumulate(at, end, 0.0, [](double sum, const Bounds& b) { return sum + b.Area; });
+    while (at != end)
+    {
+      const std::int32_t number = at->Block;
+      double share = 0.0;
+      for (; at != end && at->Block == number; ++at)
+      {
+        share += at->Incident / area;
+      }
+      // What the surface sends out comes back to it in part: by Marshak's condition so much stays.
+      this->Parts_.push_back({number, static_cast<float>(share),
+        static_cast<float>(4.0 * share * reflectance * exposed)});
+      this->Absorbed_[number] += share * (1.0 - reflectance) * exposed;
+    }
+    this->First_.push_back(this->Parts_.size());
+  }
+}
+
+} // namespace smokevis
