@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -24,6 +25,9 @@ constexpr double LargestScale = 1e3;
 constexpr double SmallestLoss = 1e-5;
 /// Standard errors that what diffusion completes must be off by to be scaled.
 constexpr double ClearDeviations = 3.0;
+/// Share of the variance of the batches that must be left for each to be scaled for itself there:
+/// the balance has noise of its own.
+constexpr double ClearShare = 0.25;
 
 void Multiply(std::vector<float>& values, double scale)
 {
@@ -31,6 +35,19 @@ void Multiply(std::vector<float>& values, double scale)
   {
     value *= static_cast<float>(scale);
   }
+}
+
+/// Variance over the square of the mean.
+double RelativeVariance(const std::vector<double>& values)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double value : values)
+  {
+    sum += value;
+    squares += value * value;
+  }
+  return std::max(0.0, static_cast<double>(values.size()) * squares / (sum * sum) - 1.0);
 }
 
 } // namespace
@@ -136,21 +153,17 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
 {
   Scales scales;
   double loss = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
-  double scaledSum = 0.0;
-  double scaledSquares = 0.0;
+  std::vector<double> plain;
+  std::vector<double> scaled;
   for (const Powers& own : powers)
   {
     scales.Own.push_back(this->ScaleFor(own.Lost));
     loss += own.Lost;
-    const double scaled = own.SentAgain * scales.Own.back();
-    sum += own.SentAgain;
-    squares += own.SentAgain * own.SentAgain;
-    scaledSum += scaled;
-    scaledSquares += scaled * scaled;
+    plain.push_back(own.SentAgain);
+    scaled.push_back(own.SentAgain * scales.Own.back());
   }
-  scales.Agree = scaledSquares * sum * sum < squares * scaledSum * scaledSum;
+  scales.Spread = RelativeVariance(plain);
+  scales.OwnSpread = RelativeVariance(scaled);
   scales.Common = this->ScaleFor(loss / static_cast<double>(powers.size()));
   return scales;
 }
@@ -184,7 +197,7 @@ void PowerBalance::ScaleLatest(
   this->ForEach(batches.size(),
     [&](std::size_t i)
     {
-      const double scale = scales.Agree ? scales.Own[i] : scales.Common;
+      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Common;
       Multiply(batches[i].Fluence, scale);
       Multiply(batches[i].Illuminance, scale);
     });
@@ -193,46 +206,47 @@ void PowerBalance::ScaleLatest(
 void PowerBalance::ScaleSums(
   const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
-  if (this->Sky_)
-  {
-    return;
-  }
   const Scales scales = this->ScalesOf(powers);
-  if (!scales.Agree)
+  if (!this->Sky_ && scales.OwnSpread < scales.Spread)
   {
-    return;
+    this->Scale(scales.Own, batches);
   }
-  this->ForEach(batches.size(),
-    [&](std::size_t i)
-    {
-      Multiply(batches[i].FluenceSum, scales.Own[i]);
-      Multiply(batches[i].IlluminanceSum, scales.Own[i]);
-    });
 }
 
 void PowerBalance::ScaleCompleted(
   const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
-  const auto count = static_cast<double>(powers.size());
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const Powers& own : powers)
-  {
-    sum += own.Lost;
-    squares += own.Lost * own.Lost;
-  }
-  const double loss = sum / count;
-  const double error = std::sqrt(std::max(0.0, squares / count - loss * loss) / (count - 1.0));
-  if (this->Sky_ || std::abs(this->Source_ - loss) <= ClearDeviations * error)
+  if (this->Sky_)
   {
     return;
   }
-  const double scale = this->ScaleFor(loss);
+  Scales scales = this->ScalesOf(powers);
+  if (scales.OwnSpread < ClearShare * scales.Spread)
+  {
+    this->Scale(scales.Own, batches);
+    return;
+  }
+  std::vector<double> losses;
+  std::transform(powers.begin(), powers.end(), std::back_inserter(losses),
+    [](const Powers& own) { return own.Lost; });
+  const double error =
+    std::sqrt(RelativeVariance(losses) / (static_cast<double>(losses.size()) - 1.0));
+  // The scale is the source over the mean loss.
+  if (std::abs(scales.Common - 1.0) > ClearDeviations * error)
+  {
+    std::fill(scales.Own.begin(), scales.Own.end(), scales.Common);
+    this->Scale(scales.Own, batches);
+  }
+}
+
+void PowerBalance::Scale(
+  const std::vector<double>& scales, std::vector<BatchState>& batches) const
+{
   this->ForEach(batches.size(),
     [&](std::size_t i)
     {
-      Multiply(batches[i].FluenceSum, scale);
-      Multiply(batches[i].IlluminanceSum, scale);
+      Multiply(batches[i].FluenceSum, scales[i]);
+      Multiply(batches[i].IlluminanceSum, scales[i]);
     });
 }
 

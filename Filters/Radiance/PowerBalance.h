@@ -52,8 +52,9 @@ public:
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums where the batches then agree better.
   void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
-  /// Scales sums that diffusion completes all alike, where what they lose is clearly not what is
-  /// emitted: each for itself they would bring the noise of the balance along.
+  /// Scales sums that diffusion completes, each batch for itself where they then agree much better:
+  /// else that would bring the noise of the balance along; all alike where what they lose is
+  /// clearly not what is emitted.
   void ScaleCompleted(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
 
 private:
@@ -62,13 +63,14 @@ private:
     /// Of each batch, and of all alike.
     std::vector<double> Own;
     double Common = 1.0;
-    /// Whether the batches agree better each with its own.
-    bool Agree = false;
+    /// Relative variance of what the batches send on, and of the same each with its own scale.
+    double Spread = 0.0, OwnSpread = 0.0;
   };
 
   double FirstSource(const LightField& field, int band, const Box& outer) const;
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
+  void Scale(const std::vector<double>& scales, std::vector<BatchState>& batches) const;
   /// Runs body(i) for each batch.
   template <class Body> void ForEach(std::size_t batches, Body&& body) const;
 
