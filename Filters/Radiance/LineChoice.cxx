@@ -28,6 +28,8 @@ constexpr double InnerRatio = 3.0;
 constexpr double MuchFiner = 2.0;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.75;
+/// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
+constexpr double DenseShare = 0.25;
 
 /// The box around the scene, somewhat larger: surfaces on its border lie inside.
 Box SceneBox(const Scene& scene)
@@ -66,6 +68,40 @@ double LinesForPatches(
            ? std::min(meetings * reflecting * box.Surface() / (2.0 * area), MostLinesForPatches)
            : 0.0;
 }
+
+/// The cells of at least some extinction coefficient.
+struct Body
+{
+  Box Bounds{Vec3(std::numeric_limits<double>::infinity()),
+    Vec3(-std::numeric_limits<double>::infinity())};
+  /// Sums of the extinction coefficient times volume [m2], and of its square times volume [m].
+  double Capture = 0.0, Squares = 0.0;
+
+  /// @param least extinction coefficient [1/m]
+  Body(const Medium& smoke, double least)
+  {
+    for (std::size_t i = 0; i < smoke.Cells(); ++i)
+    {
+      const auto cell = static_cast<std::int64_t>(i);
+      const double extinction = smoke.Extinction(cell);
+      const double own = smoke.OwnVolume(cell);
+      if (own > 0.0 && extinction >= least)
+      {
+        const Vec3 centre = smoke.CellCentre(cell);
+        const Vec3 size = smoke.CellSize(cell);
+        this->Bounds.Add({centre - 0.5 * size, centre + 0.5 * size});
+        this->Capture += extinction * own;
+        this->Squares += extinction * extinction * own;
+      }
+    }
+  }
+
+  /// Optical depth of isotropic chords of the box around it, by Cauchy's formula.
+  double MeanDepth() const
+  {
+    return this->Capture > 0.0 ? 4.0 * this->Capture / this->Bounds.Surface() : 0.0;
+  }
+};
 
 /// Grids whose cells are about as large.
 struct CellGroup
@@ -155,19 +191,13 @@ double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t 
 bool ScattersOften(const Scene& scene, int band)
 {
   const Medium& smoke = scene.Smoke();
-  if (smoke.Empty())
-  {
-    return false;
-  }
-  double depth = 0.0;
-  for (std::size_t i = 0; i < smoke.Cells(); ++i)
-  {
-    const auto cell = static_cast<std::int64_t>(i);
-    depth += smoke.Extinction(cell) * smoke.OwnVolume(cell);
-  }
-  // Mean optical depth of isotropic chords, by Cauchy's formula; the share that is not scattered
-  // again is about 1 / (1 + depth) (Wigner's rational approximation).
-  depth *= 4.0 * scene.ExtinctionScale(band) / BoxSurface(smoke.Upper() - smoke.Lower());
+  const Body whole(smoke, 0.0);
+  // A cloud in much clear air counts for itself.
+  const Body dense(smoke, whole.Capture > 0.0 ? DenseShare * whole.Squares / whole.Capture : 0.0);
+  const double depth =
+    scene.ExtinctionScale(band) * std::max(whole.MeanDepth(), dense.MeanDepth());
+  // The share that is not scattered again is about 1 / (1 + depth) (Wigner's rational
+  // approximation).
   return scene.Albedo() * depth / (1.0 + depth) > OftenShare;
 }
 

@@ -21,8 +21,8 @@ GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
 /// How many of the lines are expected to meet a smoke cell.
 double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell);
 
-/// Whether the smoke as a whole sends nearly all that it takes up on and on: light then is where
-/// few of a sweep's lines alone would not tell it from their number.
+/// Whether the smoke as a whole, or its dense part, sends nearly all that it takes up on and on:
+/// light then is where few of a sweep's lines alone would not tell it from their number.
 bool ScattersOften(const Scene& scene, int band);
 
 /// The boxes that patches just fit in.
