@@ -144,6 +144,10 @@ private:
     const BoxLight& light, const Vec3& centre, const Vec3& place) const;
   /// Largest optical depth along an edge of a box, of any band.
   double BoxDepth(const Vec3& centre, const Vec3& size) const;
+  /// Whether the smoke that light comes from is about as dense as that around a point: ways to
+  /// places beside it differ by that smoke, then.
+  /// @param from the light's place to the point
+  bool EvenTowards(const Vec3& centre, const Vec3& from) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Mean extinction between a cell's centre and a light's [1/m].
   double WayExtinction(const LightGroup& root, std::int64_t cell) const;

@@ -349,6 +349,25 @@ double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
                       LargestEdge(size);
 }
 
+bool DirectLight::EvenTowards(const Vec3& centre, const Vec3& from) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const std::int64_t cell = smoke.Locate(centre);
+  if (cell < 0)
+  {
+    return true;
+  }
+  bool even = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t other = smoke.Neighbour(cell, axis, from[axis] > 0.0 ? 0 : 1);
+    const double step = smoke.Extinction(cell) - (other < 0 ? 0.0F : smoke.Extinction(other));
+    even =
+      even && std::abs(step) * this->Scene_.LargestScale() * smoke.CellSize(cell)[axis] < FlatDepth;
+  }
+  return even;
+}
+
 Spectrum DirectLight::GaussFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
@@ -358,12 +377,14 @@ Spectrum DirectLight::GaussFluence(
   const std::vector<GaussPlace> places =
     GaussPlaces(centre, size, this->BoxDepth(centre, size) < TwoPointDepth ? 2 : 3);
   Spectrum sum{};
-  if (!(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
+  const bool even = this->EvenTowards(centre, from);
+  if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
   {
     for (const GaussPlace& place : places)
     {
       BoxLight moved = light;
-      moved.Extinction = this->ExtinctionFrom(light, centre, place.Point);
+      moved.Extinction =
+        even ? this->ExtinctionFrom(light, centre, place.Point) : std::optional<double>();
       const Spectrum value = this->Fluence(moved, place.Point);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {

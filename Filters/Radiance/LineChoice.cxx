@@ -72,8 +72,8 @@ double LinesForPatches(
 /// The cells of at least some extinction coefficient.
 struct Body
 {
-  Box Bounds{Vec3(std::numeric_limits<double>::infinity()),
-    Vec3(-std::numeric_limits<double>::infinity())};
+  Box Bounds{
+    Vec3(std::numeric_limits<double>::infinity()), Vec3(-std::numeric_limits<double>::infinity())};
   /// Sums of the extinction coefficient times volume [m2], and of its square times volume [m].
   double Capture = 0.0, Squares = 0.0;
 
@@ -194,8 +194,7 @@ bool ScattersOften(const Scene& scene, int band)
   const Body whole(smoke, 0.0);
   // A cloud in much clear air counts for itself.
   const Body dense(smoke, whole.Capture > 0.0 ? DenseShare * whole.Squares / whole.Capture : 0.0);
-  const double depth =
-    scene.ExtinctionScale(band) * std::max(whole.MeanDepth(), dense.MeanDepth());
+  const double depth = scene.ExtinctionScale(band) * std::max(whole.MeanDepth(), dense.MeanDepth());
   // The share that is not scattered again is about 1 / (1 + depth) (Wigner's rational
   // approximation).
   return scene.Albedo() * depth / (1.0 + depth) > OftenShare;

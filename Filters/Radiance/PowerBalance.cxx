@@ -239,8 +239,7 @@ void PowerBalance::ScaleCompleted(
   }
 }
 
-void PowerBalance::Scale(
-  const std::vector<double>& scales, std::vector<BatchState>& batches) const
+void PowerBalance::Scale(const std::vector<double>& scales, std::vector<BatchState>& batches) const
 {
   this->ForEach(batches.size(),
     [&](std::size_t i)
