@@ -23,6 +23,8 @@ constexpr double BlockDepth = 1.0;
 constexpr double MostAlongAxis = 32.0;
 /// Cells whose middle lies right between blocks: rounding must not decide where they belong.
 constexpr double Aside = 1e-6;
+/// Share of even light that may come back from outside of all blocks; a tenth by rounding, too.
+constexpr double MostReturned = 0.1 * (1.0 + 1e-6);
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
 /// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
@@ -225,6 +227,7 @@ void DiffusionBlocks::FormOperator(
     double leaves = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
+      this->Open_ += block.Open[axis];
       leaves += block.Open[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
     }
     // Even light brings a quarter of its fluence to a surface: what absorbs more than all around
@@ -240,6 +243,24 @@ void DiffusionBlocks::FormOperator(
   const auto count = static_cast<Eigen::Index>(blocks.size());
   this->Operator_.resize(count, count);
   this->Operator_.setFromTriplets(entries.begin(), entries.end());
+}
+
+bool DiffusionBlocks::Serve(const Scene& scene, int band) const
+{
+  double bounding = 0.0;
+  double outside = 0.0;
+  double reflects = 0.0;
+  for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
+  {
+    const double exposed = scene.ExposedArea(side / 2, static_cast<int>(side % 2));
+    const bool bounds = this->Sides_->Bounds(side);
+    bounding += bounds ? exposed : 0.0;
+    outside += bounds ? 0.0 : exposed;
+    reflects += bounds ? 0.0 : exposed * scene.PatchReflectance(side / 2)[band];
+  }
+  // No more comes back than leaves.
+  const double back = outside > 0.0 ? reflects / outside * std::min(outside, this->Open_) : 0.0;
+  return this->Loss_ > 0.0 && back <= MostReturned * (bounding + this->Open_);
 }
 
 void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const

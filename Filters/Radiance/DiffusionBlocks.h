@@ -30,8 +30,10 @@ public:
   /// @param extinction of each cell in the band [1/m]
   DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
   std::size_t Count() const { return this->Capture_.size(); }
-  /// Whether light is lost anywhere: else there is nothing that it would come to.
-  bool Loses() const { return this->Loss_ > 0.0; }
+  /// Whether they serve: light is lost somewhere, else there is nothing that it would come to, and
+  /// little of it may come back from surfaces outside of all blocks: what those send on is not
+  /// completed, and would be taken for known.
+  bool Serve(const Scene& scene, int band) const;
 
   /// Adds what a sweep would change of a cell's fluence [lx] to the residual of its block [lm].
   void AddResidual(std::size_t cell, double change, std::vector<double>& residual) const
@@ -87,6 +89,8 @@ private:
   std::vector<double> Escape_;
   /// Power that is absorbed or leaves the scene, over a fluence that is the same everywhere [m2].
   double Loss_ = 0.0;
+  /// Area through which light leaves the blocks [m2].
+  double Open_ = 0.0;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
   Eigen::SparseMatrix<double> Operator_;
 };

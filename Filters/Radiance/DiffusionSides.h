@@ -55,6 +55,8 @@ public:
     return sum;
   }
   std::size_t Count() const { return this->First_.size() - 1; }
+  /// Whether it bounds any block.
+  bool Bounds(std::size_t side) const { return this->First_[side] < this->First_[side + 1]; }
   /// What surfaces absorb over the fluence of a block [m2]; also of those that stand inside of it.
   double Absorbed(std::size_t block) const { return this->Absorbed_[block]; }
 
