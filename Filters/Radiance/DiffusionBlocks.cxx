@@ -21,7 +21,8 @@ namespace
 /// Optical depth of a block, and how many there are along an axis, at most.
 constexpr double BlockDepth = 1.0;
 constexpr double MostAlongAxis = 32.0;
-/// Cells whose middle lies right between blocks: rounding must not decide where they belong.
+/// Cells whose middle lies right between blocks, and smoke a whole number of blocks deep: rounding
+/// must not decide.
 constexpr double Aside = 1e-6;
 /// Share of even light that may come back from outside of all blocks; a tenth by rounding, too.
 constexpr double MostReturned = 0.1 * (1.0 + 1e-6);
@@ -92,8 +93,9 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
     squares += extinction[cell] * own;
   }
   const Vec3 extent = glm::max(smoke.Upper() - smoke.Lower(), Vec3(1e-300));
-  const Vec3 counts = glm::clamp(
-    glm::ceil(extent * (squares / std::max(capture, 1e-300) / BlockDepth)), 1.0, MostAlongAxis);
+  const Vec3 counts =
+    glm::clamp(glm::ceil(extent * (squares / std::max(capture, 1e-300) / BlockDepth) - Aside), 1.0,
+      MostAlongAxis);
   const Vec3 blockSize = extent / counts;
 
   // Boxes of cells; walls part them into blocks that light passes through.

@@ -21,19 +21,22 @@ constexpr double LeastResistance = 0.1;
 constexpr double PartsAnEdge = 8.0;
 constexpr double MostRows = 64.0;
 
-/// Calls visit(point) for the centres of rows x rows equal triangles that make one up.
+/// Calls visit(point) for about the centres of rows x rows equal triangles that make one up.
 template <class Visit> void ForEachPart(const Triangle& corners, int rows, Visit&& visit)
 {
+  // Centres themselves often lie right between cells, where rounding would decide.
+  constexpr double one = 1.0 / 3.0 + 0.0137;
+  constexpr double other = 1.0 / 3.0 + 0.0091;
   const Vec3 along = (corners[1] - corners[0]) / static_cast<double>(rows);
   const Vec3 across = (corners[2] - corners[0]) / static_cast<double>(rows);
   for (int i = 0; i < rows; ++i)
   {
     for (int j = 0; i + j < rows; ++j)
     {
-      visit(corners[0] + (i + 1.0 / 3.0) * along + (j + 1.0 / 3.0) * across);
+      visit(corners[0] + (i + one) * along + (j + other) * across);
       if (i + j + 1 < rows)
       {
-        visit(corners[0] + (i + 2.0 / 3.0) * along + (j + 2.0 / 3.0) * across);
+        visit(corners[0] + (i + 1.0 - one) * along + (j + 1.0 - other) * across);
       }
     }
   }

@@ -21,10 +21,12 @@ constexpr int BoxSplits = 3;
 /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
 /// two along each edge follow an exponential over a depth x to x^4 / 4320, three go farther. Above
 /// the deepest nearly all light stays in the first part of the box.
-constexpr double FlatDepth = 0.25;
-constexpr double FlatRatio = 0.2;
-constexpr double TwoPointDepth = 1.2;
-constexpr double DeepestGauss = 4.0;
+/// Cells are often just so deep: somewhat more, or rounding would decide.
+constexpr double Aside = 1.0 + 1e-6;
+constexpr double FlatDepth = 0.25 * Aside;
+constexpr double FlatRatio = 0.2 * Aside;
+constexpr double TwoPointDepth = 1.2 * Aside;
+constexpr double DeepestGauss = 4.0 * Aside;
 /// Share of a light's intensity towards any place in a box that there is towards its centre, where
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
