@@ -34,6 +34,23 @@ constexpr double LargestError = 10.0;
 constexpr double NegligibleShare = 0.25;
 /// Share of a band's part of the progress bar that its sweeps take.
 constexpr double SweepShare = 0.9;
+/// Optical depth of scattering across a cell above which sources in it vary by more than what is
+/// linear.
+constexpr double CoarseDepth = 1.0;
+
+std::size_t CoarseCells(const Scene& scene, int band)
+{
+  const Medium& smoke = scene.Smoke();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < smoke.Cells(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i);
+    const double depth =
+      smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.MeanChord(cell);
+    count += scene.Albedo() * depth > CoarseDepth && smoke.OwnVolume(cell) > 0.0 ? 1 : 0;
+  }
+  return count;
+}
 
 } // namespace
 
@@ -249,6 +266,11 @@ void MultipleSolve::Band(int band)
   {
     this->Say(name + "thick cells", static_cast<double>(thick),
       "what they scatter to themselves is summed up, not swept");
+  }
+  if (const std::size_t coarse = CoarseCells(this->Scene_, band); coarse > 0)
+  {
+    this->Say(name + "coarse cells", static_cast<double>(coarse),
+      "more than a mean free path wide: finer ones would tell more exactly how light varies there");
   }
 }
 

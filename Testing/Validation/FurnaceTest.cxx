@@ -2,6 +2,7 @@
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
+#include "WorkCount.h"
 
 #include <cmath>
 #include <numbers>
@@ -135,6 +136,8 @@ TEST(Furnace, WhiteSmokeBetweenReflectingWalls)
                                  ", reflectance " + std::to_string(reflectance).substr(0, 4);
         std::vector<std::int64_t> cells(solved.TheScene->Smoke().Cells());
         std::iota(cells.begin(), cells.end(), 0);
+        EXPECT_EQ(WorkCount(solved.Field->Report, "coarse cells"),
+          extinction > 10.0 ? static_cast<double>(cells.size()) : 0.0);
         const Estimate mean = solved.Fluence(cells);
         report::Relative(name + ", mean", 4.0 * Pi, mean.Mean, 0.0005, mean.StandardError);
         const Estimate middle = solved.Fluence(Vec3(0.1));
