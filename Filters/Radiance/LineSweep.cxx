@@ -25,7 +25,7 @@ constexpr double ThinShare = 0.25;
 /// a sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
 constexpr double HitsASquare = 2.0;
 /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
-constexpr float FewestHits = 0.25F;
+constexpr float HitsForWholeStep = 0.25F;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
@@ -251,7 +251,7 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     // What few lines meet sends on a mean of sweeps: a light that is large as rarely as it is found
     // would come back larger.
     const float share =
-      std::clamp(this->ShareOf(thin) * this->SideHits_[side] / FewestHits, least, 1.0F);
+      std::clamp(this->ShareOf(thin) * this->SideHits_[side] / HitsForWholeStep, least, 1.0F);
     state.Illuminance[side] += share * (estimate - state.Illuminance[side]);
     state.IlluminanceSum[side] += estimate;
   }
