@@ -67,7 +67,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
   bool cut = false;
   for (std::size_t sign = 0; sign < map.Signs; ++sign)
   {
-    if (FacesAway(lights, lights.Signs()[sign], eye))
+    if (options.SkipsAway && FacesAway(lights, lights.Signs()[sign], eye))
     {
       ++counts.Away;
       continue;

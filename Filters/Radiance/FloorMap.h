@@ -21,6 +21,8 @@ struct FloorMapOptions
   double ThresholdSpread = 0.04;
   /// Signs that are cut off (MeasureSign) count as 0; 0: none is.
   double CutOff = 0.0;
+  /// Whether signs that face away are left out without a look; off: to measure what that saves.
+  bool SkipsAway = true;
   Observer Eye;
   Adaptation State;
   /// Most worker threads; 0: as many as the machine has.

@@ -250,6 +250,14 @@ void SkipSigns(ResultTable& table, const Settings& settings)
       }
       return values;
     });
+  places.CutOff = 0.0;
+  Compare(table, "signs that face away", "the same",
+    [&](bool skips)
+    {
+      places.SkipsAway = skips;
+      const FloorMap map = ComputeFloorMap(*hall.TheView, places, progress);
+      return Values(map.Visibility.begin(), map.Visibility.end());
+    });
 }
 
 } // namespace

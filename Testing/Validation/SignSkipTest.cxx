@@ -90,10 +90,15 @@ TEST(SignSkip, SignsOutOfView)
   scenes::AddRectangle(scene.Surfaces, {30, 0, 0}, {0, 4, 0}, {0, 0, 4}, 1, 1, 0.3);
   add({40.0, 2.0, 2.0}, {-1, 0, 0}, 2);
   const Solved solved(scene, 0.1);
-  const FloorMapOptions options = PlacesFrom(4.0, 5);
+  FloorMapOptions options = PlacesFrom(4.0, 5);
   Progress progress;
   const FloorMap map = ComputeFloorMap(*solved.TheView, options, progress);
   EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "faces away"), 15.0);
+  options.SkipsAway = false;
+  const FloorMap looked = ComputeFloorMap(*solved.TheView, options, progress);
+  EXPECT_EQ(WorkCount(looked.Report, "views of signs skipped", "faces away"), 0.0);
+  EXPECT_EQ(looked.PerceivedContrast, map.PerceivedContrast);
+  EXPECT_EQ(looked.Status, map.Status);
   EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "hidden"), 15.0);
   EXPECT_EQ(WorkCount(map.Report, "views of signs computed"), 15.0);
   for (int place = 0; place < 15; ++place)
