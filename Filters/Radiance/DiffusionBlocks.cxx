@@ -182,8 +182,10 @@ DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
       }
       else if (to != from)
       {
-        // Faces between cells of one size come twice.
-        between[std::minmax(from, to)] += otherArea > (1.0 + SameSize) * area ? area : 0.5 * area;
+        // Faces between cells of one size come twice, but for those where a finer grid begins.
+        const bool twice = otherArea <= (1.0 + SameSize) * area &&
+                           scene.Open().Neighbour(other, axis, 1 - side) == cell;
+        between[std::minmax(from, to)] += twice ? 0.5 * area : area;
       }
     }
   }

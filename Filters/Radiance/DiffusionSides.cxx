@@ -20,6 +20,8 @@ constexpr double LeastResistance = 0.1;
 /// Rows of points that stand for a triangle: as many for the length of a block, and at most in all.
 constexpr double PartsAnEdge = 8.0;
 constexpr double MostRows = 64.0;
+/// Points for all triangles together, about, at most.
+constexpr double MostPoints = 4e6;
 
 /// Calls visit(point) for about the centres of rows x rows equal triangles that make one up.
 template <class Visit> void ForEachPart(const Triangle& corners, int rows, Visit&& visit)
@@ -67,6 +69,9 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
     double Area, Incident;
   };
   std::vector<Bounds> bounds;
+  const double triangles =
+    static_cast<double>(scene.Surfaces().Triangles.size() + scene.EmitterMesh().Triangles.size());
+  const double mostRows = std::clamp(std::floor(std::sqrt(MostPoints / triangles)), 1.0, MostRows);
   const double offset = 10.0 * scene.Shapes().Tolerance();
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners)
@@ -78,7 +83,7 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
         return;
       }
       const int rows = static_cast<int>(
-        std::clamp(std::ceil(PartsAnEdge * ReachOf(corners) / edge), 1.0, MostRows));
+        std::clamp(std::ceil(PartsAnEdge * ReachOf(corners) / edge), 1.0, mostRows));
       for (int which = 0; which < 2; ++which)
       {
         const Vec3 normal = (which == 0 ? 1.0 : -1.0) / area * vector;
@@ -86,16 +91,28 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
         {
           continue;
         }
+        const std::size_t side = 2 * patch + which;
+        const std::size_t first = bounds.size();
         ForEachPart(corners, rows,
           [&](const Vec3& point)
           {
             const std::int32_t beside = block(point + offset * normal);
-            if (beside >= 0)
+            if (beside < 0)
             {
-              const double part = area / (static_cast<double>(rows) * rows);
-              bounds.push_back({2 * patch + which, beside, part,
-                part * IncidentShare(scene.PatchReflectance(patch)[band], depth(beside, normal))});
+              return;
             }
+            const double part = area / (static_cast<double>(rows) * rows);
+            // Points in a row mostly lie beside one block.
+            auto own = std::find_if(bounds.rbegin(), bounds.rend() - first,
+              [beside](const Bounds& earlier) { return earlier.Block == beside; });
+            if (own == bounds.rend() - first)
+            {
+              bounds.push_back({side, beside, 0.0, 0.0});
+              own = bounds.rbegin();
+            }
+            own->Area += part;
+            own->Incident +=
+              part * IncidentShare(scene.PatchReflectance(patch)[band], depth(beside, normal));
           });
       }
     });

@@ -23,7 +23,8 @@ constexpr double ThinnestDepth = 0.05;
 
 SourceShape::SourceShape(const Scene& scene, const LightField& field, const DirectField& direct,
   int band, const std::vector<float>& extinction)
-    : Open_(&scene.Open()), DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
+    : Smoke_(&scene.Smoke()), Open_(&scene.Open()),
+      DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
 {
   const Medium& smoke = scene.Smoke();
   std::vector<std::int64_t> shaped;
@@ -52,8 +53,8 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
           std::array<double, 2> centre;
           for (int side = 0; side < 2; ++side)
           {
-            const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
-            centre[side] = smoke.CellCentre(other < 0 ? cell : other)[axis];
+            const std::int64_t other = this->Beside(cell, axis, side);
+            centre[side] = smoke.CellCentre(other)[axis];
           }
           const double distance = centre[1] - centre[0];
           own.Inverse[axis] = distance > 0.0 ? static_cast<float>(1.0 / distance) : 0.0F;
@@ -61,6 +62,12 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
         }
       }
     });
+}
+
+std::int64_t SourceShape::Beside(std::int64_t cell, int axis, int side) const
+{
+  const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
+  return other < 0 || this->Smoke_->Covered(other) ? cell : other;
 }
 
 void SourceShape::Follow(const std::vector<BatchState>& batches)
@@ -94,8 +101,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
         const bool varies = this->Cells_[i].DirectVaries;
         const auto value = [&](int axis, int side)
         {
-          const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
-          const std::int64_t there = other < 0 ? cell : other;
+          const std::int64_t there = this->Beside(cell, axis, side);
           return means[there] + (varies ? 0.0F : this->DirectFluence_[there]);
         };
         Slope slope{};

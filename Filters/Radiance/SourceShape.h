@@ -12,6 +12,7 @@ namespace smokevis
 {
 
 class DirectField;
+class Medium;
 class OpenFaces;
 class Scene;
 struct BatchState;
@@ -66,13 +67,17 @@ private:
   /// What the slopes of a cell are told by.
   struct Measures
   {
-    /// 1 / distance between the centres of the neighbours on both sides along each axis, or of the
-    /// cell itself where a surface is between; 0 where there is neither [1/m].
+    /// 1 / distance between the centres of Beside() on both sides along each axis, or 0 [1/m].
     std::array<float, 3> Inverse;
     /// Half the cell's edges [m].
     std::array<float, 3> Half;
   };
 
+  /// The neighbour that tells a slope, or the cell itself where there is none: the middle of what
+  /// finer grids leave of a cell is somewhere else than its own.
+  std::int64_t Beside(std::int64_t cell, int axis, int side) const;
+
+  const Medium* Smoke_ = nullptr;
   const OpenFaces* Open_ = nullptr;
   const float* DirectFluence_ = nullptr;
   std::vector<Shaped> Cells_;
