@@ -173,6 +173,34 @@ TEST(Furnace, FineMeshWithinACoarseOne)
   }
 }
 
+// A fine mesh begins in the middle of coarse cells: the middle of what is left of them lies right
+// beside it, or in it. Hardly any light is lost, so that all cells are known to a thousandth.
+TEST(Furnace, FineMeshAcrossCoarseCells)
+{
+  report::Head("Isothermal white smoke, a mesh across the cells of another, farthest cell");
+  for (const double low : {-0.548, -0.544, -0.54, -0.51})
+  {
+    SceneDescription description = Isothermal(20.0, 1.0, 0.99, false);
+    description.Grids.push_back(
+      scenes::UniformSmoke(Vec3(low, -0.5, -0.5), Vec3(0.25), {24, 6, 6}, 60.0));
+    description.Grids.back().EmittedLuminance.assign(24 * 6 * 6, 1.0F);
+    const Solved solved(description, 0.03);
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < solved.TheScene->Smoke().Cells(); ++i)
+    {
+      const auto cell = static_cast<std::int64_t>(i);
+      const Estimate fluence = solved.Fluence(std::vector<std::int64_t>{cell});
+      const double deviation = fluence.Mean / (4.0 * Pi) - 1.0;
+      if (solved.TheScene->Smoke().OwnVolume(cell) > 0.0 &&
+          std::abs(deviation) > std::abs(farthest))
+      {
+        farthest = deviation;
+      }
+    }
+    report::Absolute("from " + std::to_string(low).substr(0, 6), 0.0, farthest, 0.01, 0.0);
+  }
+}
+
 // A sphere with smoke that only absorbs. 80 triangles stand for it, whose mean chord 4 V / S is the
 // sphere's: K, the mean transmittance of chords, is then right to first order in the optical depth.
 // By the reference integrator L = 1 / (1 - a K) is 0.34 % larger in the polyhedron of depth 1 and
