@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis
 {
@@ -24,6 +25,13 @@ struct Box
 {
   Vec3 Lower{0.0};
   Vec3 Upper{0.0};
+
+  /// One that holds nothing yet.
+  static Box Nothing()
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {Vec3(infinity), Vec3(-infinity)};
+  }
 
   double Surface() const { return BoxSurface(this->Upper - this->Lower); }
 

@@ -168,14 +168,12 @@ Vec3 ConvexSolid::Centre() const
 //--------------------------------------------------------------------------------------------------
 Box ConvexSolid::Bounds() const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{Vec3(infinity), Vec3(-infinity)};
+  Box box = Box::Nothing();
   for (const std::vector<Vec3>& face : this->Faces_)
   {
     for (const Vec3& corner : face)
     {
-      box.Lower = glm::min(box.Lower, corner);
-      box.Upper = glm::max(box.Upper, corner);
+      box.Add({corner, corner});
     }
   }
   return this->Faces_.empty() ? Box() : box;

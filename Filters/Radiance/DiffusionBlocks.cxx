@@ -25,7 +25,7 @@ constexpr double MostAlongAxis = 32.0;
 /// must not decide.
 constexpr double Aside = 1e-6;
 /// Share of even light that may come back from outside of all blocks; a tenth by rounding, too.
-constexpr double MostReturned = 0.1 * (1.0 + 1e-6);
+constexpr double MostFromOutside = 0.1 * (1.0 + 1e-6);
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
 /// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
@@ -264,7 +264,7 @@ bool DiffusionBlocks::Serve(const Scene& scene, int band) const
   }
   // No more comes back than leaves.
   const double back = outside > 0.0 ? reflects / outside * std::min(outside, this->Open_) : 0.0;
-  return this->Loss_ > 0.0 && back <= MostReturned * (bounding + this->Open_);
+  return this->Loss_ > 0.0 && back <= MostFromOutside * (bounding + this->Open_);
 }
 
 void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const

@@ -29,6 +29,7 @@ class DiffusionBlocks
 public:
   /// @param extinction of each cell in the band [1/m]
   DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
+
   std::size_t Count() const { return this->Capture_.size(); }
   /// Whether they serve: light is lost somewhere, else there is nothing that it would come to, and
   /// little of it may come back from surfaces outside of all blocks: what those send on is not

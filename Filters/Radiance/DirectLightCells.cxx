@@ -18,11 +18,11 @@ namespace
 
 /// How often a box beside a light is split.
 constexpr int BoxSplits = 3;
+/// Cells are often just as deep as what follows: somewhat more, or rounding would decide.
+constexpr double Aside = 1.0 + 1e-6;
 /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
 /// two along each edge follow an exponential over a depth x to x^4 / 4320, three go farther. Above
 /// the deepest nearly all light stays in the first part of the box.
-/// Cells are often just so deep: somewhat more, or rounding would decide.
-constexpr double Aside = 1.0 + 1e-6;
 constexpr double FlatDepth = 0.25 * Aside;
 constexpr double FlatRatio = 0.2 * Aside;
 constexpr double TwoPointDepth = 1.2 * Aside;
@@ -359,15 +359,17 @@ bool DirectLight::EvenTowards(const Vec3& centre, const Vec3& from) const
   {
     return true;
   }
-  bool even = true;
+  const Vec3 size = smoke.CellSize(cell);
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t other = smoke.Neighbour(cell, axis, from[axis] > 0.0 ? 0 : 1);
     const double step = smoke.Extinction(cell) - (other < 0 ? 0.0F : smoke.Extinction(other));
-    even =
-      even && std::abs(step) * this->Scene_.LargestScale() * smoke.CellSize(cell)[axis] < FlatDepth;
+    if (std::abs(step) * this->Scene_.LargestScale() * size[axis] >= FlatDepth)
+    {
+      return false;
+    }
   }
-  return even;
+  return true;
 }
 
 Spectrum DirectLight::GaussFluence(

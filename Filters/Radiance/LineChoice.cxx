@@ -69,11 +69,18 @@ double LinesForPatches(
            : 0.0;
 }
 
+/// Around a cell, or part of one, of its size.
+Box CellBounds(const Medium& smoke, std::int64_t cell)
+{
+  const Vec3 centre = smoke.CellCentre(cell);
+  const Vec3 half = 0.5 * smoke.CellSize(cell);
+  return {centre - half, centre + half};
+}
+
 /// The cells of at least some extinction coefficient.
 struct Body
 {
-  Box Bounds{
-    Vec3(std::numeric_limits<double>::infinity()), Vec3(-std::numeric_limits<double>::infinity())};
+  Box Bounds = Box::Nothing();
   /// Sums of the extinction coefficient times volume [m2], and of its square times volume [m].
   double Capture = 0.0, Squares = 0.0;
 
@@ -87,9 +94,7 @@ struct Body
       const double own = smoke.OwnVolume(cell);
       if (own > 0.0 && extinction >= least)
       {
-        const Vec3 centre = smoke.CellCentre(cell);
-        const Vec3 size = smoke.CellSize(cell);
-        this->Bounds.Add({centre - 0.5 * size, centre + 0.5 * size});
+        this->Bounds.Add(CellBounds(smoke, cell));
         this->Capture += extinction * own;
         this->Squares += extinction * extinction * own;
       }
@@ -125,10 +130,9 @@ std::vector<CellGroup> CellGroups(const Medium& smoke)
     own.Cells = static_cast<double>(grid.Cells());
     grid.ForEachCell([&](const std::array<int, 3>& place)
       { own.Boundary += BoxSurface(smoke.CellSize(smoke.Cell(grid, place))); });
-    Box bounds = smoke.BoxOf(smoke.Cell(grid, {0, 0, 0}));
-    bounds.Add(
+    own.Boxes.push_back(smoke.BoxOf(smoke.Cell(grid, {0, 0, 0})));
+    own.Boxes.back().Add(
       smoke.BoxOf(smoke.Cell(grid, {grid.Size[0] - 1, grid.Size[1] - 1, grid.Size[2] - 1})));
-    own.Boxes.push_back(bounds);
   }
   std::sort(grids.begin(), grids.end(),
     [](const CellGroup& a, const CellGroup& b) { return a.Density() < b.Density(); });
@@ -174,8 +178,7 @@ void MergeWhereSmaller(std::vector<Box>& boxes)
 
 std::vector<Box> PatchBounds(const Scene& scene)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<Box> bounds(scene.Patches(), {Vec3(infinity), Vec3(-infinity)});
+  std::vector<Box> bounds(scene.Patches(), Box::Nothing());
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners) { bounds[patch].Add(BoundsOf(corners)); });
   return bounds;
@@ -183,9 +186,8 @@ std::vector<Box> PatchBounds(const Scene& scene)
 
 double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell)
 {
-  const Vec3 centre = smoke.CellCentre(cell);
-  const Vec3 size = smoke.CellSize(cell);
-  return lines.Meetings(BoxSurface(size), {centre - 0.5 * size, centre + 0.5 * size});
+  const Box bounds = CellBounds(smoke, cell);
+  return lines.Meetings(bounds.Surface(), bounds);
 }
 
 bool ScattersOften(const Scene& scene, int band)

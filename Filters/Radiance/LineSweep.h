@@ -62,7 +62,8 @@ public:
   LineSweep(const Scene& scene, const LightField& field, const DirectField& direct, int band,
     double tolerance, const Progress& progress);
 
-  /// Lines that cross a cell of mean size about 1.5 times, or less often where little is asked for.
+  /// Lines that cross a cell of its mesh's mean size about 1.5 times, or less often where little is
+  /// asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
   /// The box that they enter and leave the scene through.
   const Box& Outer() const { return this->Lines_.Outer(); }

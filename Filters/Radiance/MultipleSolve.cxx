@@ -34,8 +34,8 @@ constexpr double LargestError = 10.0;
 constexpr double NegligibleShare = 0.25;
 /// Share of a band's part of the progress bar that its sweeps take.
 constexpr double SweepShare = 0.9;
-/// Optical depth of scattering across a cell above which sources in it vary by more than what is
-/// linear.
+/// Optical depth of scattering on the mean chord of a cell above which sources in it vary by more
+/// than what is linear.
 constexpr double CoarseDepth = 1.0;
 
 std::size_t CoarseCells(const Scene& scene, int band)
@@ -256,7 +256,8 @@ void MultipleSolve::Band(int band)
   this->Gather(band, name);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
-    "cells of mean size are crossed about 1.5 times, less often above a tolerance of 0.03");
+    "cells of a mesh's mean size are crossed about 1.5 times, less often above a tolerance of "
+    "0.03");
   if (sweep->Blocks())
   {
     this->Say(name + "blocks of diffusion", static_cast<double>(sweep->Blocks()->Count()),
@@ -270,7 +271,8 @@ void MultipleSolve::Band(int band)
   if (const std::size_t coarse = CoarseCells(this->Scene_, band); coarse > 0)
   {
     this->Say(name + "coarse cells", static_cast<double>(coarse),
-      "more than a mean free path wide: finer ones would tell more exactly how light varies there");
+      "light is scattered more than once on a mean way through them: finer ones would tell more "
+      "exactly how it varies there");
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -25,9 +24,9 @@ constexpr double LargestScale = 1e3;
 constexpr double SmallestLoss = 1e-5;
 /// Standard errors that what diffusion completes must be off by to be scaled.
 constexpr double ClearDeviations = 3.0;
-/// Share of the variance of the batches that must be left for each to be scaled for itself there:
-/// the balance has noise of its own.
-constexpr double ClearShare = 0.25;
+/// Share of the spread of the batches that must be left for each to be scaled for itself there: the
+/// balance has noise of its own.
+constexpr double ClearShare = 0.5;
 
 void Multiply(std::vector<float>& values, double scale)
 {
@@ -37,17 +36,9 @@ void Multiply(std::vector<float>& values, double scale)
   }
 }
 
-/// Variance over the square of the mean.
-double RelativeVariance(const std::vector<double>& values)
+double RelativeError(const DoubleLanes& values)
 {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const double value : values)
-  {
-    sum += value;
-    squares += value * value;
-  }
-  return std::max(0.0, static_cast<double>(values.size()) * squares / (sum * sum) - 1.0);
+  return StandardError(values) / std::abs(Mean(values));
 }
 
 } // namespace
@@ -152,19 +143,20 @@ void PowerBalance::ExpectLoss(const std::vector<Powers>& powers) const
 PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) const
 {
   Scales scales;
-  double loss = 0.0;
-  std::vector<double> plain;
-  std::vector<double> scaled;
-  for (const Powers& own : powers)
+  DoubleLanes losses;
+  DoubleLanes plain;
+  DoubleLanes scaled;
+  for (int batch = 0; batch < Batches; ++batch)
   {
-    scales.Own.push_back(this->ScaleFor(own.Lost));
-    loss += own.Lost;
-    plain.push_back(own.SentAgain);
-    scaled.push_back(own.SentAgain * scales.Own.back());
+    losses[batch] = powers[batch].Lost;
+    plain[batch] = powers[batch].SentAgain;
+    scales.Own[batch] = this->ScaleFor(losses[batch]);
+    scaled[batch] = plain[batch] * scales.Own[batch];
   }
-  scales.Spread = RelativeVariance(plain);
-  scales.OwnSpread = RelativeVariance(scaled);
-  scales.Common = this->ScaleFor(loss / static_cast<double>(powers.size()));
+  scales.Common = this->ScaleFor(Mean(losses));
+  scales.CommonError = RelativeError(losses);
+  scales.Spread = RelativeError(plain);
+  scales.OwnSpread = RelativeError(scaled);
   return scales;
 }
 
@@ -226,20 +218,14 @@ void PowerBalance::ScaleCompleted(
     this->Scale(scales.Own, batches);
     return;
   }
-  std::vector<double> losses;
-  std::transform(powers.begin(), powers.end(), std::back_inserter(losses),
-    [](const Powers& own) { return own.Lost; });
-  const double error =
-    std::sqrt(RelativeVariance(losses) / (static_cast<double>(losses.size()) - 1.0));
-  // The scale is the source over the mean loss.
-  if (std::abs(scales.Common - 1.0) > ClearDeviations * error)
+  if (std::abs(scales.Common - 1.0) > ClearDeviations * scales.CommonError)
   {
-    std::fill(scales.Own.begin(), scales.Own.end(), scales.Common);
+    scales.Own.fill(scales.Common);
     this->Scale(scales.Own, batches);
   }
 }
 
-void PowerBalance::Scale(const std::vector<double>& scales, std::vector<BatchState>& batches) const
+void PowerBalance::Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const
 {
   this->ForEach(batches.size(),
     [&](std::size_t i)

@@ -60,17 +60,18 @@ public:
 private:
   struct Scales
   {
-    /// Of each batch, and of all alike.
-    std::vector<double> Own;
-    double Common = 1.0;
-    /// Relative variance of what the batches send on, and of the same each with its own scale.
+    /// Of each batch, of all alike, and the relative standard error of the latter.
+    DoubleLanes Own{};
+    double Common = 1.0, CommonError = 0.0;
+    /// Relative standard error of what the batches send on, and of the same each with its own
+    /// scale.
     double Spread = 0.0, OwnSpread = 0.0;
   };
 
   double FirstSource(const LightField& field, int band, const Box& outer) const;
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
-  void Scale(const std::vector<double>& scales, std::vector<BatchState>& batches) const;
+  void Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const;
   /// Runs body(i) for each batch.
   template <class Body> void ForEach(std::size_t batches, Body&& body) const;
 

@@ -98,7 +98,6 @@ TEST(DiffusionBlocks, ReflectingWall)
   for (const double reflectance : {0.5, 1.0})
   {
     SceneDescription description = Slab(width);
-    // More finely parted than blocks, and less.
     scenes::AddRectangle(
       description.Surfaces, Vec3(0.0), {width, 0, 0}, {0, width, 0}, 3, 3, reflectance);
     // All around white.
