@@ -215,9 +215,13 @@ void DirectSolve::Patches()
       }
       for (int side = 0; side < 2; ++side)
       {
+        // The mean over what is not dark.
+        const double area = this->Scene_.PatchArea(patch);
+        const double lit = area - this->Scene_.EnclosedArea(patch, side);
+        const double scale = lit > 0.0 ? area / lit : 0.0;
         for (int band = 0; band < this->Field_.Bands; ++band)
         {
-          illuminance(band, patch, side) = static_cast<float>(sum[side][band]);
+          illuminance(band, patch, side) = static_cast<float>(scale * sum[side][band]);
         }
       }
     });

@@ -1,5 +1,6 @@
 #include "Exposure.h"
 
+#include "Bodies.h"
 #include "Geometry.h"
 #include "Sampler.h"
 #include "Scene.h"
@@ -60,15 +61,30 @@ std::vector<Piece> PiecesOf(
   return pieces;
 }
 
-/// How many of the first places on a piece are exposed, on its front and on its back.
-std::array<std::size_t, 2> CountExposed(
-  const Geometry& shapes, const Piece& piece, std::uint64_t key, std::size_t places)
+/// Shares of a side that are exposed, and that a solid stands on.
+struct Shares
+{
+  double Exposed = 0.0, Enclosed = 0.0;
+
+  bool All() const { return this->Exposed == 1.0; }
+};
+
+/// Whether a line met a side of a piece.
+bool IsFrom(const Piece& piece, const Hit& hit, int side)
+{
+  return hit.Emitter == piece.Emitter && hit.Triangle == piece.Triangle && hit.Side == side;
+}
+
+/// Of the front of a piece and of its back, by the first places on it.
+std::array<Shares, 2> FindShares(const Geometry& shapes, const Bodies& bodies, const Piece& piece,
+  std::uint64_t key, std::size_t places)
 {
   const Vec3 normal = glm::normalize(glm::cross(piece.First, piece.Second));
   const double reach = 4.0 * shapes.Tolerance();
   const EvenPoints points(key);
   thread_local std::vector<Crossing> crossings;
   std::array<std::size_t, 2> exposed{};
+  std::array<std::size_t, 2> enclosed{};
   for (std::size_t place = 0; place < places; ++place)
   {
     auto random = points.Point(place);
@@ -79,60 +95,74 @@ std::array<std::size_t, 2> CountExposed(
     }
     const Vec3 point = piece.Corner + random[0] * piece.First + random[1] * piece.Second;
     shapes.Cross(point + reach * normal, -normal, 0.0, 2.0 * reach, crossings);
-    const auto met = [&](const Hit& hit, int side)
-    { return hit.Emitter == piece.Emitter && hit.Triangle == piece.Triangle && hit.Side == side; };
+    std::array<bool, 2> met{};
+    bool several = false;
     for (const Crossing& crossing : crossings)
     {
-      exposed[0] += met(crossing.Arrive, 0) ? 1 : 0;
-      exposed[1] += met(crossing.Leave, 1) ? 1 : 0;
+      met[0] = met[0] || IsFrom(piece, crossing.Arrive, 0);
+      met[1] = met[1] || IsFrom(piece, crossing.Leave, 1);
+      several = several || crossing.Several;
+    }
+    for (int side = 0; side < 2; ++side)
+    {
+      const bool dark = several && bodies.Enclose(point, side == 0 ? normal : -normal);
+      enclosed[side] += dark ? 1 : 0;
+      exposed[side] += met[side] && !dark ? 1 : 0;
     }
   }
-  return exposed;
+  const auto share = [places](std::size_t count) { return static_cast<double>(count) / places; };
+  return {{{share(exposed[0]), share(enclosed[0])}, {share(exposed[1]), share(enclosed[1])}}};
 }
 
 } // namespace
 
-std::vector<double> ExposedAreas(
-  const Geometry& shapes, const SurfaceMesh& surfaces, const SurfaceMesh& emitters)
+bool Exposure::AnyEnclosed() const
+{
+  return std::any_of(
+    this->Enclosed.begin(), this->Enclosed.end(), [](double area) { return area > 0.0; });
+}
+
+Exposure FindExposure(const Geometry& shapes, const Bodies& bodies, const SurfaceMesh& surfaces,
+  const SurfaceMesh& emitters)
 {
   const std::vector<Piece> pieces = PiecesOf(shapes, surfaces, emitters);
   const std::size_t firstPlaces = std::clamp(
     AllFirstPlaces / std::max<std::size_t>(1, pieces.size()), FewestFirstPlaces, MostFirstPlaces);
-  std::vector<std::array<double, 2>> exposed(pieces.size());
+  /// Of the places on each piece, and on each of its sides.
+  std::vector<std::array<Shares, 2>> shares(pieces.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pieces.size(), 64),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
-        std::size_t places = firstPlaces;
-        std::array<std::size_t, 2> count = CountExposed(shapes, pieces[i], i, places);
-        if (count[0] != places || count[1] != places)
+        shares[i] = FindShares(shapes, bodies, pieces[i], i, firstPlaces);
+        if (!shares[i][0].All() || !shares[i][1].All())
         {
-          places = Places;
-          count = CountExposed(shapes, pieces[i], i, places);
-        }
-        for (int side = 0; side < 2; ++side)
-        {
-          exposed[i][side] = pieces[i].Area * static_cast<double>(count[side]) / places;
+          shares[i] = FindShares(shapes, bodies, pieces[i], i, Places);
         }
       }
     });
   const std::size_t patches = surfaces.CellReflectance.size() + emitters.CellReflectance.size();
   std::vector<double> areas(patches, 0.0);
-  std::vector<double> result(2 * patches, 0.0);
+  Exposure result{std::vector<double>(2 * patches, 0.0), std::vector<double>(2 * patches, 0.0)};
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     areas[pieces[i].Patch] += pieces[i].Area;
     for (int side = 0; side < 2; ++side)
     {
-      result[2 * pieces[i].Patch + side] += exposed[i][side];
+      result.Exposed[2 * pieces[i].Patch + side] += pieces[i].Area * shares[i][side].Exposed;
+      result.Enclosed[2 * pieces[i].Patch + side] += pieces[i].Area * shares[i][side].Enclosed;
     }
   }
-  for (std::size_t side = 0; side < result.size(); ++side)
+  for (std::size_t side = 0; side < 2 * patches; ++side)
   {
-    if (result[side] < SmallestShare * areas[side / 2])
+    double& exposed = result.Exposed[side];
+    double& enclosed = result.Enclosed[side];
+    const double least = SmallestShare * areas[side / 2];
+    if (exposed < least)
     {
-      result[side] = 0.0;
+      exposed = 0.0;
+      enclosed = 0.0;
     }
   }
   return result;

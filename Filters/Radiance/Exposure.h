@@ -9,13 +9,25 @@
 namespace smokevis
 {
 
+class Bodies;
 class Geometry;
 struct SurfaceMesh;
 
-/// Area of either side of each patch that nothing touches and covers [m2]: [patch][side], patches
-/// of surfaces first. Triangles that repeat others have none. From places on the patches, so that a
-/// share between none and all of a patch is known to a percent.
-std::vector<double> ExposedAreas(
-  const Geometry& shapes, const SurfaceMesh& surfaces, const SurfaceMesh& emitters);
+/// Areas of either side of each patch [m2]: [patch][side], patches of surfaces first. From places
+/// on the patches, so that a share between none and all of a patch is known to a percent.
+struct Exposure
+{
+  /// What nothing touches and covers. Triangles that repeat others have none.
+  std::vector<double> Exposed;
+  /// What a closed solid with a face of its own there stands on: a dark part of a patch whose other
+  /// parts are lit. None where no part is.
+  std::vector<double> Enclosed;
+
+  bool AnyEnclosed() const;
+};
+
+/// @param bodies of the surfaces
+Exposure FindExposure(const Geometry& shapes, const Bodies& bodies, const SurfaceMesh& surfaces,
+  const SurfaceMesh& emitters);
 
 } // namespace smokevis

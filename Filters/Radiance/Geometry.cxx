@@ -67,6 +67,12 @@ std::optional<RTCRay> MakeRay(const Vec3& origin, const Vec3& direction, double 
   return within && length > 0.0 ? std::optional<RTCRay>(ray) : std::nullopt;
 }
 
+Hit OtherSide(Hit hit)
+{
+  hit.Side = 1 - hit.Side;
+  return hit;
+}
+
 RTCRayHit MakeQuery(const RTCRay& ray)
 {
   RTCRayHit query;
@@ -294,11 +300,6 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
 {
   crossings.clear();
   const double gap = 2.0 * this->Tolerance_;
-  const auto otherSide = [](Hit hit)
-  {
-    hit.Side = 1 - hit.Side;
-    return hit;
-  };
   thread_local std::vector<Hit> surfaces;
   thread_local std::vector<Hit> plates;
   this->Surfaces_.IntersectAll(origin, direction, begin, end, surfaces);
@@ -317,19 +318,22 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
     if (!surface.Found() && !plate.Found())
     {
-      return;
+      break;
     }
     Crossing crossing;
-    if (surface.Found() && plate.Found() && this->Touch(surface, plate, direction))
+    const bool touch = surface.Found() && plate.Found() && this->Touch(surface, plate, direction);
+    crossing.Several = touch || (surface.Found() && std::next(nextSurface) != surfaces.end() &&
+                                  std::next(nextSurface)->Distance <= nextSurface->Distance + gap);
+    if (touch)
     {
       crossing.Arrive = plate.Side == 0 ? plate : surface;
-      crossing.Leave = otherSide(plate.Side == 0 ? last : plate);
+      crossing.Leave = OtherSide(plate.Side == 0 ? last : plate);
     }
     else
     {
       const bool onPlate = plate.Distance < surface.Distance;
       crossing.Arrive = onPlate ? plate : surface;
-      crossing.Leave = otherSide(onPlate ? plate : last);
+      crossing.Leave = OtherSide(onPlate ? plate : last);
     }
     begin = std::max(crossing.Arrive.Distance, crossing.Leave.Distance) + gap;
     // A line meets a plane triangle once: a second time is rounding at grazing incidence.
@@ -340,6 +344,38 @@ void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, do
     {
       crossings.push_back(crossing);
     }
+  }
+  if (!this->Bodies_.empty())
+  {
+    this->PreferOwnBacks(surfaces, crossings);
+  }
+}
+
+void Geometry::PreferOwnBacks(
+  const std::vector<Hit>& surfaces, std::vector<Crossing>& crossings) const
+{
+  const double gap = 2.0 * this->Tolerance_;
+  /// The hit with a given side at a crossing that belongs to the body whose back is at the other
+  /// end of the way there.
+  const auto ownBack = [&](const Crossing& crossing, const Hit& end, int side)
+  {
+    const auto own = std::find_if(surfaces.begin(), surfaces.end(),
+      [&](const Hit& hit)
+      {
+        return hit.Side == side && std::abs(hit.Distance - crossing.Arrive.Distance) <= gap &&
+               this->Bodies_[hit.Triangle] == this->Bodies_[end.Triangle];
+      });
+    return crossing.Several && !end.Emitter && end.Side == 1 && own != surfaces.end() ? *own
+                                                                                      : Hit();
+  };
+  for (std::size_t i = 1; i < crossings.size(); ++i)
+  {
+    Crossing& before = crossings[i - 1];
+    Crossing& after = crossings[i];
+    const Hit arrive = after.Arrive.Emitter ? Hit() : ownBack(after, before.Leave, 1);
+    const Hit leave = before.Leave.Emitter ? Hit() : ownBack(before, after.Arrive, 0);
+    after.Arrive = arrive.Found() ? arrive : after.Arrive;
+    before.Leave = leave.Found() ? OtherSide(leave) : before.Leave;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 struct RTCDeviceTy;
@@ -84,6 +85,8 @@ struct Crossing
   /// What it would meet here coming from its end: the same triangle's other side, or the other of
   /// two shapes that touch, such as a plate on a wall.
   Hit Leave;
+  /// Whether more than one triangle lies here.
+  bool Several = false;
 };
 
 /// All opaque shapes of a scene: surfaces and the plates of the emitters. A plate that lies in a
@@ -99,6 +102,11 @@ public:
   /// @param coreSize diagonal of the part that matters, such as the smoke [m]; 0: all does
   Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0,
     double coreSize = 0.0);
+
+  /// Lets lines tell what they meet where faces of several bodies lie in one another: within a
+  /// solid, its own back.
+  /// @param bodies of the surface triangles
+  void TellBodies(std::vector<std::uint32_t> bodies) { this->Bodies_ = std::move(bodies); }
 
   bool Empty() const { return this->Surfaces_.Empty() && this->Emitters_.Empty(); }
   /// Distance within which two shapes count as touching [m].
@@ -117,6 +125,13 @@ public:
   /// All shapes that a line meets between two distances, in order; `crossings` is overwritten.
   void Cross(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::vector<Crossing>& crossings) const;
+  /// All triangles of surfaces that a line meets between two distances, also those that lie in one
+  /// another, nearest first; `hits` is overwritten.
+  void SurfacesAlong(const Vec3& origin, const Vec3& direction, double begin, double end,
+    std::vector<Hit>& hits) const
+  {
+    this->Surfaces_.IntersectAll(origin, direction, begin, end, hits);
+  }
   /// Whether anything opaque lies between two distances.
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Whether the straight line between two points is clear but for what touches its ends.
@@ -141,7 +156,12 @@ private:
   void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
     Hit& surface, Hit& plate) const;
 
+  /// Where a line comes from, or leads to, the back of a body and several surfaces lie in one
+  /// another, it meets the back of that body.
+  void PreferOwnBacks(const std::vector<Hit>& surfaces, std::vector<Crossing>& crossings) const;
+
   TriangleTree Surfaces_, Emitters_;
+  std::vector<std::uint32_t> Bodies_;
   double Tolerance_ = 0.0;
 };
 

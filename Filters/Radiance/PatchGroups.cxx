@@ -1,15 +1,13 @@
 #include "PatchGroups.h"
 
 #include "Scene.h"
+#include "SharedCorners.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <map>
 #include <tuple>
-
-#include <boost/pending/disjoint_sets.hpp>
 
 namespace smokevis
 {
@@ -27,10 +25,6 @@ double FewestHits(double reflectance)
   constexpr double aSquare = 2.5;
   return std::max(least, aSquare * reflectance * reflectance);
 }
-
-/// Share of the scene's size that corners of neighbours may lie apart: patches that cut up two
-/// walls are rounded in each wall by itself.
-constexpr double SameCorner = 1e-7;
 
 /// Where a patch lies, and whom it may be put together with.
 struct Place
@@ -107,19 +101,8 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
       kindOf[patch] = number;
     }
   }
-  struct Corner
-  {
-    std::uint32_t Kind;
-    std::array<std::int64_t, 3> Place;
-    std::uint32_t Patch;
-    bool Meets(const Corner& other) const
-    {
-      return this->Kind == other.Kind && this->Place == other.Place;
-    }
-    auto operator<=>(const Corner&) const = default;
-  };
-  std::vector<Corner> all;
-  const double grain = SameCorner * glm::length(scene.Upper() - scene.Lower());
+  std::vector<SharedCorner> all;
+  const double size = glm::length(scene.Upper() - scene.Lower());
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners)
     {
@@ -127,22 +110,13 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
       {
         if (patch < patches && kindOf[patch] > 0)
         {
-          const Vec3 place = (corner - scene.Lower()) / grain;
-          all.push_back(
-            {kindOf[patch], {std::llround(place.x), std::llround(place.y), std::llround(place.z)},
-              static_cast<std::uint32_t>(patch)});
+          all.push_back(MakeSharedCorner(
+            kindOf[patch], corner - scene.Lower(), static_cast<std::uint32_t>(patch), size));
         }
       }
     });
-  std::sort(all.begin(), all.end());
   boost::disjoint_sets_with_storage<> sets(patches);
-  for (std::size_t i = 1; i < all.size(); ++i)
-  {
-    if (all[i].Meets(all[i - 1]))
-    {
-      sets.union_set(all[i - 1].Patch, all[i].Patch);
-    }
-  }
+  UniteAtCorners(all, sets);
   std::map<std::size_t, std::vector<std::uint32_t>> groups;
   for (std::size_t patch = 0; patch < patches; ++patch)
   {

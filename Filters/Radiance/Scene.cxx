@@ -1,8 +1,8 @@
 #include "Scene.h"
 
+#include "Bodies.h"
 #include "CutCells.h"
 #include "Errors.h"
-#include "Exposure.h"
 #include "NearLights.h"
 #include "OpenFaces.h"
 
@@ -144,14 +144,15 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
                         earlier->Smoke_.Upper() == this->Smoke_.Upper() &&
                         earlier->Description_.Surfaces == this->Description_.Surfaces &&
                         earlier->EmitterMesh_ == this->EmitterMesh_;
-  this->Shapes_ =
-    this->SharesShapes_
-      ? earlier->Shapes_
-      : std::make_shared<const Geometry>(this->Description_.Surfaces, this->EmitterMesh_,
-          glm::length(size), glm::length(this->Smoke_.Upper() - this->Smoke_.Lower()));
-  this->ExposedArea_ = this->SharesShapes_ ? earlier->ExposedArea_
-                                           : ExposedAreas(*this->Shapes_,
-                                               this->Description_.Surfaces, this->EmitterMesh_);
+  if (this->SharesShapes_)
+  {
+    this->Shapes_ = earlier->Shapes_;
+    this->Exposure_ = earlier->Exposure_;
+  }
+  else
+  {
+    this->FindShapes(glm::length(size));
+  }
   if (!this->Smoke_.Empty())
   {
     this->Smoke_.Divide(FindCellParts(*this));
@@ -159,6 +160,20 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
 }
 
 Scene::~Scene() = default;
+
+void Scene::FindShapes(double size)
+{
+  const SurfaceMesh& surfaces = this->Description_.Surfaces;
+  const auto shapes = std::make_shared<Geometry>(
+    surfaces, this->EmitterMesh_, size, glm::length(this->Smoke_.Upper() - this->Smoke_.Lower()));
+  const Bodies bodies(*shapes, surfaces);
+  this->Exposure_ = FindExposure(*shapes, bodies, surfaces, this->EmitterMesh_);
+  if (this->Exposure_.AnyEnclosed())
+  {
+    shapes->TellBodies(bodies.OfTriangles());
+  }
+  this->Shapes_ = shapes;
+}
 
 const NearLights& Scene::Near() const
 {

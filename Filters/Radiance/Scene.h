@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Emitters.h"
+#include "Exposure.h"
 #include "Geometry.h"
 #include "Medium.h"
 #include "Triangle.h"
@@ -88,7 +89,12 @@ public:
   /// Area of one side of a patch that nothing touches and covers [m2]; side 0 is the front.
   double ExposedArea(std::size_t patch, int side) const
   {
-    return this->ExposedArea_[2 * patch + side];
+    return this->Exposure_.Exposed[2 * patch + side];
+  }
+  /// Area of one side of a patch that a closed solid stands on: dark, while the rest is lit [m2].
+  double EnclosedArea(std::size_t patch, int side) const
+  {
+    return this->Exposure_.Enclosed[2 * patch + side];
   }
   const Spectrum& PatchReflectance(std::size_t patch) const
   {
@@ -111,6 +117,9 @@ public:
   const Vec3& Upper() const { return this->Upper_; }
 
 private:
+  /// @param size diagonal of the scene [m]
+  void FindShapes(double size);
+
   /// Without its grids and emitters, which move into Smoke_ and Lights_.
   SceneDescription Description_;
   SurfaceMesh EmitterMesh_;
@@ -122,8 +131,7 @@ private:
   mutable std::unique_ptr<const NearLights> Near_;
   mutable std::unique_ptr<const OpenFaces> Open_;
   std::vector<double> PatchArea_;
-  /// [patch][side].
-  std::vector<double> ExposedArea_;
+  Exposure Exposure_;
   std::vector<Spectrum> PatchReflectance_;
   Vec3 Lower_{0.0};
   Vec3 Upper_{0.0};

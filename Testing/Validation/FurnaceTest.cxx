@@ -1,9 +1,11 @@
 // Closed furnaces, whose radiance is known everywhere.
+#include "Box.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
 #include "WorkCount.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -212,6 +214,62 @@ TEST(Furnace, FineMeshAcrossCoarseCells)
       }
     }
     report::Absolute("from " + std::to_string(low).substr(0, 6), 0.0, farthest, 0.01, 0.0);
+  }
+}
+
+// A white box stands on a white floor with a face of its own there, full of cold smoke: around it
+// the floor is as bright as everything else. What is covered of a patch is known to a percent.
+TEST(Furnace, PatchesThatABoxStandsOn)
+{
+  report::Head("Isothermal smoke around a box on the floor, illuminance of patches partly covered");
+  const Box box{Vec3(-0.2, -0.2, -1.0), Vec3(0.2, 0.4, 0.2)};
+  for (const bool boxFirst : {false, true})
+  {
+    SceneDescription description = Isothermal(Smoke(2.0), 0.5, 0.5);
+    SmokeGrid& smoke = description.Grids[0];
+    std::size_t cell = 0;
+    for (const double z : scenes::Linear(-0.9, 0.9, 9))
+    {
+      for (const double y : scenes::Linear(-0.9, 0.9, 9))
+      {
+        for (const double x : scenes::Linear(-0.9, 0.9, 9))
+        {
+          const bool inside = box.Contains({x, y, z});
+          smoke.Extinction[cell] = inside ? 50.0F : smoke.Extinction[cell];
+          smoke.EmittedLuminance[cell] = inside ? 0.0F : 1.0F;
+          ++cell;
+        }
+      }
+    }
+    std::erase_if(description.Emitters,
+      [](const EmitterCell& wall)
+      {
+        return std::all_of(wall.Vertices.begin(), wall.Vertices.end(),
+          [](const Vec3& vertex) { return vertex.z == -1.0; });
+      });
+    std::size_t floor = 0;
+    const auto addFloor = [&]
+    {
+      floor = scenes::AddRectangle(
+        description.Surfaces, Vec3(-1.0), Vec3(2.0, 0.0, 0.0), Vec3(0.0, 2.0, 0.0), 4, 4, 1.0);
+    };
+    if (!boxFirst)
+    {
+      addFloor();
+    }
+    scenes::AddBlock(description.Surfaces, box.Lower, box.Upper, 0.3, 1.0);
+    if (boxFirst)
+    {
+      addFloor();
+    }
+    const Solved solved(description, 0.005);
+    for (const std::size_t patch : {5, 6, 9, 10})
+    {
+      const Estimate seen = solved.Illuminance({floor + patch}, 0);
+      report::Relative(
+        (boxFirst ? "box first, patch " : "floor first, patch ") + std::to_string(patch), Pi,
+        seen.Mean, 0.01, seen.StandardError);
+    }
   }
 }
 
