@@ -16,6 +16,12 @@ inline double BoxSurface(const Vec3& size)
   return 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
+/// Area of one of its faces across an axis [m2].
+inline double FaceArea(const Vec3& size, int axis)
+{
+  return size[(axis + 1) % 3] * size[(axis + 2) % 3];
+}
+
 inline double LargestEdge(const Vec3& size)
 {
   return std::max({size.x, size.y, size.z});

@@ -21,8 +21,8 @@ Completion::Completion(const DiffusionBlocks& blocks, std::vector<BatchState>& b
 {
   for (BatchState& batch : batches)
   {
-    batch.Residual.assign(blocks.Count(), 0.0);
-    batch.Lacking.assign(blocks.Count(), 0.0);
+    batch.Residual.assign(blocks.Residuals(), 0.0);
+    batch.Lacking.assign(blocks.Residuals(), 0.0);
   }
 }
 
@@ -48,9 +48,12 @@ void Completion::CompleteLatest(int sweeps, std::vector<BatchState>& batches)
   if (product(lack.Fluence) < -MostReturned * product(this->Completed_))
   {
     this->Step_ *= 0.5;
-    for (double& fluence : lack.Fluence)
+    for (std::vector<double>* values : {&lack.Fluence, &lack.Illuminance})
     {
-      fluence *= 0.5;
+      for (double& value : *values)
+      {
+        value *= 0.5;
+      }
     }
   }
   this->Blocks_.Complete(lack, batches);

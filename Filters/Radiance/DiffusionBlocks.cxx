@@ -1,6 +1,7 @@
 #include "DiffusionBlocks.h"
 
 #include "OpenFaces.h"
+#include "OutsideRegions.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -24,33 +25,15 @@ constexpr double MostAlongAxis = 32.0;
 /// Cells whose middle lies right between blocks, and smoke a whole number of blocks deep: rounding
 /// must not decide.
 constexpr double Aside = 1e-6;
-/// Share of even light that may come back from outside of all blocks; a tenth by rounding, too.
-constexpr double MostFromOutside = 0.1 * (1.0 + 1e-6);
+/// Share of the light from open faces that leaves the scene, from which on none of it is taken to
+/// come back.
+constexpr double MostEscapes = 0.98;
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
 /// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
 /// iterations do.
 constexpr double SolverTolerance = 1e-3;
 constexpr int MostIterations = 2000;
-
-/// Whether a face is the end of the smoke, and no surface stands between it and the cell's middle.
-bool EndsOpen(const Scene& scene, std::int64_t cell, int axis, int side)
-{
-  if (scene.Smoke().Neighbour(cell, axis, side) >= 0)
-  {
-    return false;
-  }
-  Vec3 direction(0.0);
-  direction[axis] = side == 0 ? -1.0 : 1.0;
-  const double gap = 10.0 * scene.Shapes().Tolerance();
-  return !scene.Shapes().Occluded(
-    scene.Smoke().CellCentre(cell), direction, 0.0, 0.5 * scene.Smoke().CellSize(cell)[axis] + gap);
-}
-
-double FaceArea(const Vec3& size, int axis)
-{
-  return size[(axis + 1) % 3] * size[(axis + 2) % 3];
-}
 
 } // namespace
 
@@ -61,20 +44,47 @@ struct DiffusionBlocks::Sums
   Vec3 Size = Vec3(0.0);
   double Volume = 0.0, Capture = 0.0;
   Vec3 Moment = Vec3(0.0);
-  /// Area across each axis where the smoke ends and no surface is [m2].
-  Vec3 Open = Vec3(0.0);
 
   double Extinction() const { return this->Capture / this->Volume; }
   Vec3 Centre() const { return this->Moment / this->Volume; }
+  /// From its middle to where it ends in some direction.
+  double DepthTo(const Vec3& direction) const
+  {
+    return 0.5 * this->Extinction() * glm::dot(direction, this->Size);
+  }
+};
+
+/// What lies outside of all smoke: blocks of clear air.
+struct DiffusionBlocks::Outside
+{
+  OutsideRegions Regions;
+  /// Block of each region, after those of the smoke; -1 where hardly any light comes back.
+  std::vector<std::int32_t> Blocks;
+  /// First of them, and one behind the last.
+  std::int32_t First, End;
+
+  Outside(const Scene& scene, std::int32_t first) : Regions(scene), First(first), End(first)
+  {
+    for (std::size_t region = 0; region < this->Regions.Count(); ++region)
+    {
+      const bool open = this->Regions.EscapingShare(region) > MostEscapes;
+      this->Blocks.push_back(open ? -1 : this->End++);
+    }
+  }
+  std::int32_t OfSide(std::size_t side) const
+  {
+    const std::int32_t region = this->Regions.OfSide(side);
+    return region < 0 ? -1 : this->Blocks[region];
+  }
 };
 
 DiffusionBlocks::DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction)
     : Block_(extinction.size(), -1), Scattering_(extinction.size(), 0.0F)
 {
-  std::vector<Sums> blocks = this->FormBlocks(scene, extinction);
-  const Areas between = this->FindFaces(scene, blocks);
-  this->FindSides(scene, band, blocks);
-  this->FormOperator(scene.Albedo(), blocks, between);
+  const std::vector<Sums> blocks = this->FormBlocks(scene, extinction);
+  const Outside outside(scene, static_cast<std::int32_t>(blocks.size()));
+  this->FindSides(scene, band, blocks, outside);
+  this->FormOperator(scene.Albedo(), blocks, this->FindFaces(scene), outside);
 }
 
 std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
@@ -150,8 +160,7 @@ std::vector<DiffusionBlocks::Sums> DiffusionBlocks::FormBlocks(
   return blocks;
 }
 
-DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
-  const Scene& scene, std::vector<Sums>& blocks) const
+DiffusionBlocks::Areas DiffusionBlocks::FindFaces(const Scene& scene) const
 {
   const Medium& smoke = scene.Smoke();
   Areas between;
@@ -176,11 +185,7 @@ DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
         continue;
       }
       const std::int32_t to = other < 0 ? -1 : this->Block_[other];
-      if (to < 0)
-      {
-        blocks[from].Open[axis] += EndsOpen(scene, cell, axis, side) ? area : 0.0;
-      }
-      else if (to != from)
+      if (to >= 0 && to != from)
       {
         // Faces between cells of one size come twice, but for those where a finer grid begins.
         const bool twice = otherArea <= (1.0 + SameSize) * area &&
@@ -192,110 +197,117 @@ DiffusionBlocks::Areas DiffusionBlocks::FindFaces(
   return between;
 }
 
-void DiffusionBlocks::FindSides(const Scene& scene, int band, const std::vector<Sums>& blocks)
+void DiffusionBlocks::FindSides(
+  const Scene& scene, int band, const std::vector<Sums>& blocks, const Outside& outside)
 {
   const Medium& smoke = scene.Smoke();
-  const auto block = [&](const Vec3& point)
+  const auto block = [&](std::size_t side, const Vec3& point)
   {
     const std::int64_t cell = smoke.Locate(point);
-    return cell < 0 ? -1 : this->Block_[cell];
+    return cell < 0 ? outside.OfSide(side) : this->Block_[cell];
   };
   const auto depth = [&](std::int32_t beside, const Vec3& normal)
-  {
-    const Sums& own = blocks[beside];
-    return 0.5 * own.Extinction() * glm::dot(glm::abs(normal), own.Size);
-  };
+  { return beside >= outside.First ? 0.0 : blocks[beside].DepthTo(glm::abs(normal)); };
   const Vec3 size = blocks.front().Size;
-  this->Sides_.emplace(
-    scene, band, block, depth, blocks.size(), std::min({size.x, size.y, size.z}));
+  this->Sides_.emplace(scene, band, block, depth, static_cast<std::size_t>(outside.End),
+    std::min({size.x, size.y, size.z}));
 }
 
 void DiffusionBlocks::FormOperator(
-  double albedo, const std::vector<Sums>& blocks, const Areas& between)
+  double albedo, const std::vector<Sums>& blocks, const Areas& between, const Outside& outside)
 {
   std::vector<Eigen::Triplet<double>> entries;
+  const auto pass = [&entries](std::int32_t one, std::int32_t other, double passes)
+  {
+    entries.emplace_back(one, one, passes);
+    entries.emplace_back(one, other, -passes);
+    entries.emplace_back(other, other, passes);
+    entries.emplace_back(other, one, -passes);
+  };
   for (const auto& [pair, area] : between)
   {
     const auto [one, other] = pair;
     const double depth = 0.5 * (blocks[one].Extinction() + blocks[other].Extinction()) *
                          glm::distance(blocks[one].Centre(), blocks[other].Centre());
-    const double passes = area / DiffusionResistance(depth, 0.0);
-    entries.emplace_back(one, one, passes);
-    entries.emplace_back(one, other, -passes);
-    entries.emplace_back(other, other, passes);
-    entries.emplace_back(other, one, -passes);
+    pass(one, other, area / DiffusionResistance(depth, 0.0));
   }
-  for (std::size_t i = 0; i < blocks.size(); ++i)
+  this->Escape_.assign(static_cast<std::size_t>(outside.End), 0.0);
+  const auto& faces = outside.Regions.Faces();
+  for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    const Sums& block = blocks[i];
-    double leaves = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
+    const std::int32_t from = this->Block_[faces[i].Cell];
+    const std::int32_t to = outside.Blocks[outside.Regions.OfFace(i)];
+    Vec3 direction(0.0);
+    direction[faces[i].Axis] = 1.0;
+    const double leaves = faces[i].Area * IncidentShare(0.0, blocks[from].DepthTo(direction));
+    if (to < 0)
     {
-      this->Open_ += block.Open[axis];
-      leaves += block.Open[axis] * IncidentShare(0.0, 0.5 * block.Extinction() * block.Size[axis]);
+      this->Escape_[from] += leaves;
     }
-    // Even light brings a quarter of its fluence to a surface: what absorbs more than all around
-    // the block belongs to others, too.
-    const double absorbed = this->Sides_->Absorbed(i);
-    const double lost = leaves + std::min(absorbed, 0.25 * BoxSurface(block.Size));
-    const auto index = static_cast<Eigen::Index>(i);
-    entries.emplace_back(index, index, (1.0 - albedo) * block.Capture + lost);
-    this->Loss_ += (1.0 - albedo) * block.Capture + lost;
-    this->Capture_.push_back(block.Capture);
-    this->Escape_.push_back(lost - absorbed);
+    else
+    {
+      pass(from, to, leaves);
+    }
   }
-  const auto count = static_cast<Eigen::Index>(blocks.size());
-  this->Operator_.resize(count, count);
-  this->Operator_.setFromTriplets(entries.begin(), entries.end());
-}
-
-bool DiffusionBlocks::Serve(const Scene& scene, int band) const
-{
-  double bounding = 0.0;
-  double outside = 0.0;
-  double reflects = 0.0;
-  for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
+  for (std::size_t region = 0; region < outside.Blocks.size(); ++region)
   {
-    const double exposed = scene.ExposedArea(side / 2, static_cast<int>(side % 2));
-    const bool bounds = this->Sides_->Bounds(side);
-    bounding += bounds ? exposed : 0.0;
-    outside += bounds ? 0.0 : exposed;
-    reflects += bounds ? 0.0 : exposed * scene.PatchReflectance(side / 2)[band];
+    if (outside.Blocks[region] >= 0)
+    {
+      // Even light brings a quarter of its fluence to what bounds it, and to ways out of the scene:
+      // these are to the rest as what escapes is to what does not.
+      const double share = outside.Regions.EscapingShare(region);
+      this->Escape_[outside.Blocks[region]] =
+        0.25 * outside.Regions.BoundingArea(region) * share / (1.0 - share);
+    }
   }
-  // No more comes back than leaves.
-  const double back = outside > 0.0 ? reflects / outside * std::min(outside, this->Open_) : 0.0;
-  return this->Loss_ > 0.0 && back <= MostFromOutside * (bounding + this->Open_);
+  for (std::int32_t i = 0; i < outside.End; ++i)
+  {
+    // What absorbs more than even light brings to all around a block belongs to others, too.
+    const double absorbed = this->Sides_->Absorbed(i);
+    const bool inSmoke = i < outside.First;
+    const double most = inSmoke ? std::min(absorbed, 0.25 * BoxSurface(blocks[i].Size)) : absorbed;
+    const double capture = inSmoke ? blocks[i].Capture : 0.0;
+    const double lost = (1.0 - albedo) * capture + this->Escape_[i] + most;
+    entries.emplace_back(i, i, lost);
+    this->Loss_ += lost;
+    this->Capture_.push_back(capture);
+    this->Escape_[i] += most - absorbed;
+  }
+  this->Operator_.resize(outside.End, outside.End);
+  this->Operator_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
 {
-  Eigen::Map<Eigen::VectorXd> residual(
-    batch.Residual.data(), static_cast<Eigen::Index>(batch.Residual.size()));
+  const Eigen::Map<const Eigen::VectorXd> residual(
+    batch.Residual.data(), static_cast<Eigen::Index>(this->Count()));
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(SolverTolerance);
   solver.setMaxIterations(MostIterations);
   solver.compute(this->Operator_);
   const Eigen::VectorXd lacks = step * solver.solve(residual);
-  residual.setZero();
-  if (solver.info() != Eigen::Success)
+  // Where it is not solved, sweeps build the light up by themselves.
+  if (solver.info() == Eigen::Success)
   {
-    // Sweeps then build the light up by themselves.
-    return;
+    for (Eigen::Index block = 0; block < lacks.size(); ++block)
+    {
+      batch.Lacking[block] += lacks[block];
+      batch.EscapedSum += this->Escape_[block] * lacks[block];
+    }
+    for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
+    {
+      batch.FluenceSum[cell] +=
+        this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lacks[this->Block_[cell]]);
+    }
+    for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
+    {
+      const double own = step * this->Sides_->Own(side) * batch.Residual[this->Count() + side];
+      batch.Lacking[this->Count() + side] += own;
+      batch.IlluminanceSum[side] +=
+        static_cast<float>(this->Sides_->Illuminance(side, lacks) + own);
+    }
   }
-  for (Eigen::Index block = 0; block < lacks.size(); ++block)
-  {
-    batch.Lacking[block] += lacks[block];
-    batch.EscapedSum += this->Escape_[block] * lacks[block];
-  }
-  for (std::size_t cell = 0; cell < this->Block_.size(); ++cell)
-  {
-    batch.FluenceSum[cell] +=
-      this->Block_[cell] < 0 ? 0.0F : static_cast<float>(lacks[this->Block_[cell]]);
-  }
-  for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
-  {
-    batch.IlluminanceSum[side] += static_cast<float>(this->Sides_->Illuminance(side, lacks));
-  }
+  std::fill(batch.Residual.begin(), batch.Residual.end(), 0.0);
 }
 
 DiffusionBlocks::Lack DiffusionBlocks::LackOf(
@@ -319,6 +331,15 @@ DiffusionBlocks::Lack DiffusionBlocks::LackOf(
     lack.Fluence.push_back(mean);
     size += this->Capture_[block] * mean * mean;
     error += this->Capture_[block] * (squares / count - mean * mean) / (count - 1.0);
+  }
+  for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
+  {
+    double sum = 0.0;
+    for (const BatchState& batch : batches)
+    {
+      sum += batch.Lacking[this->Count() + side];
+    }
+    lack.Illuminance.push_back(sum / (sweeps * count));
   }
   std::vector<double> mets(batches.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, batches.size(),
@@ -356,8 +377,8 @@ void DiffusionBlocks::Complete(const Lack& lack, std::vector<BatchState>& batche
       }
       for (std::size_t side = 0; side < this->Sides_->Count(); ++side)
       {
-        batch.Illuminance[side] +=
-          static_cast<float>(this->Sides_->Illuminance(side, lack.Fluence));
+        batch.Illuminance[side] += static_cast<float>(
+          this->Sides_->Illuminance(side, lack.Fluence) + lack.Illuminance[side]);
       }
       std::fill(batch.Lacking.begin(), batch.Lacking.end(), 0.0);
     });

@@ -31,10 +31,8 @@ public:
   DiffusionBlocks(const Scene& scene, int band, const std::vector<float>& extinction);
 
   std::size_t Count() const { return this->Capture_.size(); }
-  /// Whether they serve: light is lost somewhere, else there is nothing that it would come to, and
-  /// little of it may come back from surfaces outside of all blocks: what those send on is not
-  /// completed, and would be taken for known.
-  bool Serve(const Scene& scene, int band) const;
+  /// Whether light is lost anywhere: else there is nothing that it would come to.
+  bool Lose() const { return this->Loss_ > 0.0; }
 
   /// Adds what a sweep would change of a cell's fluence [lx] to the residual of its block [lm].
   void AddResidual(std::size_t cell, double change, std::vector<double>& residual) const
@@ -45,6 +43,8 @@ public:
     }
   }
   const DiffusionSides& Sides() const { return *this->Sides_; }
+  /// Of the residuals of all blocks and, after them, all sides.
+  std::size_t Residuals() const { return this->Count() + this->Sides_->Count(); }
   /// Adds to the sums of a batch, and to its Lacking, what its sweeps lack by its residual, and
   /// empties that.
   /// @param step share of that
@@ -53,8 +53,8 @@ public:
   /// What batches lack of the fluence in the mean over all of their sweeps.
   struct Lack
   {
-    /// Of each block [lx].
-    std::vector<double> Fluence;
+    /// Of each block, and of the illuminance of each side that its blocks do not tell [lx].
+    std::vector<double> Fluence, Illuminance;
     /// Root mean square over the smoke, and its standard error, over the mean fluence.
     double Size = 0.0, Error = 0.0;
 
@@ -70,14 +70,16 @@ public:
 private:
   /// Sums over the cells of a block, and over what bounds it.
   struct Sums;
+  struct Outside;
   /// Between pairs of blocks [m2].
   using Areas = std::map<std::pair<std::int32_t, std::int32_t>, double>;
 
   std::vector<Sums> FormBlocks(const Scene& scene, const std::vector<float>& extinction);
-  /// Also adds to the blocks the area that bounds them.
-  Areas FindFaces(const Scene& scene, std::vector<Sums>& blocks) const;
-  void FindSides(const Scene& scene, int band, const std::vector<Sums>& blocks);
-  void FormOperator(double albedo, const std::vector<Sums>& blocks, const Areas& between);
+  Areas FindFaces(const Scene& scene) const;
+  void FindSides(
+    const Scene& scene, int band, const std::vector<Sums>& blocks, const Outside& outside);
+  void FormOperator(
+    double albedo, const std::vector<Sums>& blocks, const Areas& between, const Outside& outside);
 
   /// Block of each cell, or -1 inside of walls, and scattering coefficient times volume [m2].
   std::vector<std::int32_t> Block_;
@@ -90,8 +92,6 @@ private:
   std::vector<double> Escape_;
   /// Power that is absorbed or leaves the scene, over a fluence that is the same everywhere [m2].
   double Loss_ = 0.0;
-  /// Area through which light leaves the blocks [m2].
-  double Open_ = 0.0;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
   Eigen::SparseMatrix<double> Operator_;
 };

@@ -57,16 +57,17 @@ double IncidentShare(double reflectance, double depth)
 }
 
 DiffusionSides::DiffusionSides(const Scene& scene, int band,
-  const std::function<std::int32_t(const Vec3&)>& block,
+  const std::function<std::int32_t(std::size_t, const Vec3&)>& block,
   const std::function<double(std::int32_t, const Vec3&)>& depth, std::size_t blocks, double edge)
     : Absorbed_(blocks, 0.0)
 {
-  /// Area that lies beside a block, and the same times the irradiance over the block's fluence.
+  /// Area that lies beside a block, the same times the irradiance over the block's fluence, and
+  /// times what the light of the surface itself adds to that.
   struct Bounds
   {
     std::size_t Side;
     std::int32_t Block;
-    double Area, Incident;
+    double Area, Incident, Own;
   };
   std::vector<Bounds> bounds;
   const double triangles =
@@ -96,7 +97,7 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
         ForEachPart(corners, rows,
           [&](const Vec3& point)
           {
-            const std::int32_t beside = block(point + offset * normal);
+            const std::int32_t beside = block(side, point + offset * normal);
             if (beside < 0)
             {
               return;
@@ -107,12 +108,15 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
               [beside](const Bounds& earlier) { return earlier.Block == beside; });
             if (own == bounds.rend() - first)
             {
-              bounds.push_back({side, beside, 0.0, 0.0});
+              bounds.push_back({side, beside, 0.0, 0.0, 0.0});
               own = bounds.rbegin();
             }
+            const double reflectance = scene.PatchReflectance(patch)[band];
+            const double toSurface = depth(beside, normal);
+            const double share = IncidentShare(reflectance, toSurface);
             own->Area += part;
-            own->Incident +=
-              part * IncidentShare(scene.PatchReflectance(patch)[band], depth(beside, normal));
+            own->Incident += part * share;
+            own->Own += part * share * reflectance * (DiffusionResistance(toSurface, 2.0) - 2.0);
           });
       }
     });
@@ -129,6 +133,7 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
       std::find_if(at, bounds.cend(), [&](const Bounds& b) { return b.Side != side; });
     const double area =
       std::accumulate(at, end, 0.0, [](double sum, const Bounds& b) { return sum + b.Area; });
+    double sent = 0.0;
     while (at != end)
     {
       const std::int32_t number = at->Block;
@@ -136,6 +141,7 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
       for (; at != end && at->Block == number; ++at)
       {
         share += at->Incident / area;
+        sent += at->Own / area;
       }
       // What the surface sends out comes back to it in part: by Marshak's condition so much stays.
       this->Parts_.push_back({number, static_cast<float>(share),
@@ -143,6 +149,7 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
       this->Absorbed_[number] += share * (1.0 - reflectance) * exposed;
     }
     this->First_.push_back(this->Parts_.size());
+    this->Own_.push_back(static_cast<float>(sent));
   }
 }
 

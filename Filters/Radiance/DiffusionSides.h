@@ -27,18 +27,19 @@ double IncidentShare(double reflectance, double depth);
 class DiffusionSides
 {
 public:
-  /// @param block where a point lies, or -1 outside all
+  /// @param block where a point before a side lies, or -1 where in none
   /// @param depth optical depth from the middle of a block to where a normal leads out of it
   /// @param blocks how many there are
   /// @param edge length that parts of patches need not be smaller than [m]
   DiffusionSides(const Scene& scene, int band,
-    const std::function<std::int32_t(const Vec3&)>& block,
+    const std::function<std::int32_t(std::size_t, const Vec3&)>& block,
     const std::function<double(std::int32_t, const Vec3&)>& depth, std::size_t blocks, double edge);
 
-  /// Adds what a sweep would change of a side's illuminance [lx] to the residuals of its blocks
-  /// [lm]: the surface sends that on.
+  /// Adds what a sweep would change of a side's illuminance [lx] to its own residual, which comes
+  /// after those of the blocks, and to those of its blocks [lm]: the surface sends that on.
   void AddResidual(std::size_t side, double change, std::vector<double>& residual) const
   {
+    residual[this->Absorbed_.size() + side] += change;
     for (std::size_t i = this->First_[side]; i < this->First_[side + 1]; ++i)
     {
       residual[this->Parts_[i].Block] += this->Parts_[i].Sends * change;
@@ -54,9 +55,10 @@ public:
     }
     return sum;
   }
+  /// Illuminance that the light which a side sent on itself adds to that of its blocks' fluence,
+  /// over what that was: less than nothing, since not all of their fluence comes towards it.
+  float Own(std::size_t side) const { return this->Own_[side]; }
   std::size_t Count() const { return this->First_.size() - 1; }
-  /// Whether it bounds any block.
-  bool Bounds(std::size_t side) const { return this->First_[side] < this->First_[side + 1]; }
   /// What surfaces absorb over the fluence of a block [m2]; also of those that stand inside of it.
   double Absorbed(std::size_t block) const { return this->Absorbed_[block]; }
 
@@ -71,7 +73,10 @@ private:
   std::vector<Part> Parts_;
   /// First part of each side, and the end.
   std::vector<std::size_t> First_;
+  /// Of each block.
   std::vector<double> Absorbed_;
+  /// Of each side.
+  std::vector<float> Own_;
 };
 
 } // namespace smokevis

@@ -24,21 +24,6 @@ constexpr double NearShare = 0.2;
 constexpr double PartShare = 0.4;
 constexpr double CellShare = 0.8;
 
-/// Triangles of each patch that have an area.
-std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
-{
-  std::vector<std::vector<Triangle>> patches(scene.Patches());
-  scene.ForEachTriangle(
-    [&patches](std::size_t patch, const Triangle& corners)
-    {
-      if (AreaOf(corners) > 0.0)
-      {
-        patches[patch].push_back(corners);
-      }
-    });
-  return patches;
-}
-
 } // namespace
 
 DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team,

@@ -85,7 +85,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   if (often)
   {
     this->Blocks_.emplace(scene, band, this->Extinction_);
-    if (!this->Blocks_->Serve(scene, band))
+    if (!this->Blocks_->Lose())
     {
       this->Blocks_.reset();
     }

@@ -189,4 +189,18 @@ const OpenFaces& Scene::Open() const
   return *this->Open_;
 }
 
+std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
+{
+  std::vector<std::vector<Triangle>> patches(scene.Patches());
+  scene.ForEachTriangle(
+    [&patches](std::size_t patch, const Triangle& corners)
+    {
+      if (AreaOf(corners) > 0.0)
+      {
+        patches[patch].push_back(corners);
+      }
+    });
+  return patches;
+}
+
 } // namespace smokevis

@@ -137,6 +137,9 @@ private:
   Vec3 Upper_{0.0};
 };
 
+/// Triangles of each patch that have an area.
+std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene);
+
 template <class Visit> void Scene::ForEachTriangle(Visit&& visit) const
 {
   std::size_t first = 0;

@@ -28,7 +28,7 @@ SceneDescription Slab(double width)
 BatchState Empty(const DiffusionBlocks& blocks, std::size_t sides = 0)
 {
   BatchState batch(Layers, sides);
-  batch.Residual.assign(blocks.Count(), 0.0);
+  batch.Residual.assign(blocks.Residuals(), 0.0);
   batch.Lacking = batch.Residual;
   batch.Counted = 1;
   return batch;
@@ -126,9 +126,8 @@ TEST(DiffusionBlocks, ReflectingWall)
         0.03 * expected + 0.1 * flux)
         << "reflectance " << reflectance << ", depth " << x;
     }
-    // By the fluence half a mean free path away alone.
-    const double illuminance =
-      flux * (0.5 + 3.0 * Depth) / (2.0 * (1.0 + reflectance) + 1.5 * (1.0 - reflectance));
+    // A quarter of the fluence at the wall and, of the net flux from it, half less.
+    const double illuminance = flux * (0.25 * (2.0 + 3.0 * Depth) - 0.5);
     EXPECT_NEAR(batch.IlluminanceSum[0], illuminance, 0.02 * illuminance);
   }
 }
