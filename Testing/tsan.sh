@@ -36,4 +36,4 @@ fi
 
 cmake --preset tsan
 cmake --build --preset tsan --target RadianceTests VtkTests StressTests ValidationTests
-ctest --preset tsan -R '^(RadianceTests|VtkTests|StressTests|ValidationTests)$' --timeout 36000 "$@"
+ctest --preset tsan -R '^(RadianceTests|VtkTests|StressTests|ValidationTests)$' "$@"
