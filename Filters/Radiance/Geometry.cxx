@@ -359,14 +359,17 @@ void Geometry::PreferOwnBacks(
   /// end of the way there.
   const auto ownBack = [&](const Crossing& crossing, const Hit& end, int side)
   {
+    if (!crossing.Several || end.Emitter || end.Side == 0)
+    {
+      return Hit();
+    }
     const auto own = std::find_if(surfaces.begin(), surfaces.end(),
       [&](const Hit& hit)
       {
         return hit.Side == side && std::abs(hit.Distance - crossing.Arrive.Distance) <= gap &&
                this->Bodies_[hit.Triangle] == this->Bodies_[end.Triangle];
       });
-    return crossing.Several && !end.Emitter && end.Side == 1 && own != surfaces.end() ? *own
-                                                                                      : Hit();
+    return own == surfaces.end() ? Hit() : *own;
   };
   for (std::size_t i = 1; i < crossings.size(); ++i)
   {
