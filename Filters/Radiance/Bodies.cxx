@@ -78,7 +78,7 @@ const std::vector<std::uint32_t>& Bodies::OfTriangles() const
 bool Bodies::Enclose(const Vec3& place, const Vec3& normal) const
 {
   const double reach = 4.0 * this->Shapes_.Tolerance();
-  thread_local std::vector<Hit> standing;
+  std::vector<Hit> standing;
   this->Shapes_.SurfacesAlong(place + reach * normal, -normal, 0.0, 2.0 * reach, standing);
   std::erase_if(standing,
     [&](const Hit& hit) { return glm::dot(this->Shapes_.Normal(hit), normal) > -SamePlane; });
@@ -107,7 +107,7 @@ bool Bodies::MeetsBack(const Vec3& origin, const Vec3& direction, std::uint32_t 
     return false;
   }
   const double gap = 4.0 * this->Shapes_.Tolerance();
-  thread_local std::vector<Hit> touching;
+  std::vector<Hit> touching;
   this->Shapes_.SurfacesAlong(origin, direction, 0.0, first.Distance + gap, touching);
   return std::any_of(touching.begin(), touching.end(),
     [&](const Hit& hit) { return hit.Side == 1 && this->OfTriangles()[hit.Triangle] == body; });

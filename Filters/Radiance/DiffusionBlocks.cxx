@@ -25,8 +25,8 @@ constexpr double MostAlongAxis = 32.0;
 /// Cells whose middle lies right between blocks, and smoke a whole number of blocks deep: rounding
 /// must not decide.
 constexpr double Aside = 1e-6;
-/// Share of the light from open faces that leaves the scene, from which on none of it is taken to
-/// come back.
+/// Share of the light in a region outside of all smoke that leaves the scene, above which none of
+/// it is taken to come back.
 constexpr double MostEscapes = 0.98;
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
