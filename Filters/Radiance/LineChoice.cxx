@@ -27,7 +27,7 @@ constexpr double InnerRatio = 3.0;
 /// How many times as many lines grids need at least that get some of their own.
 constexpr double MuchFiner = 2.0;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
-constexpr double OftenShare = 0.75;
+constexpr double OftenShare = 0.7;
 /// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
 constexpr double DenseShare = 0.25;
 
