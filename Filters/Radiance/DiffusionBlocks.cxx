@@ -249,6 +249,20 @@ void DiffusionBlocks::FormOperator(
       pass(from, to, leaves);
     }
   }
+  for (const auto& [pair, area] : outside.Regions.Passages())
+  {
+    const std::int32_t one = outside.Blocks[pair.first];
+    const std::int32_t other = outside.Blocks[pair.second];
+    // Even light passes a quarter of its fluence.
+    if (one >= 0 && other >= 0)
+    {
+      pass(one, other, 0.25 * area);
+    }
+    else if (std::max(one, other) >= 0)
+    {
+      this->Escape_[std::max(one, other)] += 0.25 * area;
+    }
+  }
   for (std::size_t region = 0; region < outside.Blocks.size(); ++region)
   {
     if (outside.Blocks[region] >= 0)
@@ -256,7 +270,7 @@ void DiffusionBlocks::FormOperator(
       // Even light brings a quarter of its fluence to what bounds it, and to ways out of the scene:
       // these are to the rest as what escapes is to what does not.
       const double share = outside.Regions.EscapingShare(region);
-      this->Escape_[outside.Blocks[region]] =
+      this->Escape_[outside.Blocks[region]] +=
         0.25 * outside.Regions.BoundingArea(region) * share / (1.0 - share);
     }
   }

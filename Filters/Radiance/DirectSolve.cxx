@@ -200,10 +200,11 @@ void DirectSolve::Patches()
       }
       for (int side = 0; side < 2; ++side)
       {
-        // The mean over what is not dark.
+        // The mean over what is not dark, if anything is.
         const double area = this->Scene_.PatchArea(patch);
-        const double lit = area - this->Scene_.EnclosedArea(patch, side);
-        const double scale = lit > 0.0 ? area / lit : 0.0;
+        const double dark = this->Scene_.EnclosedArea(patch, side);
+        const bool covered = dark > 0.0 && this->Scene_.ExposedArea(patch, side) == 0.0;
+        const double scale = covered || !(area > 0.0) ? 0.0 : area / (area - dark);
         for (int band = 0; band < this->Field_.Bands; ++band)
         {
           illuminance(band, patch, side) = static_cast<float>(scale * sum[side][band]);

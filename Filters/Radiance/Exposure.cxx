@@ -157,13 +157,7 @@ Exposure FindExposure(const Geometry& shapes, const Bodies& bodies, const Surfac
   for (std::size_t side = 0; side < 2 * patches; ++side)
   {
     double& exposed = result.Exposed[side];
-    double& enclosed = result.Enclosed[side];
-    const double least = SmallestShare * areas[side / 2];
-    if (exposed < least)
-    {
-      exposed = 0.0;
-      enclosed = 0.0;
-    }
+    exposed = exposed < SmallestShare * areas[side / 2] ? 0.0 : exposed;
   }
   return result;
 }

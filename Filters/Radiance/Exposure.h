@@ -19,8 +19,7 @@ struct Exposure
 {
   /// What nothing touches and covers. Triangles that repeat others have none.
   std::vector<double> Exposed;
-  /// What a closed solid with a face of its own there stands on: a dark part of a patch whose other
-  /// parts are lit. None where no part is.
+  /// What a closed solid with a face of its own there stands on: it is dark.
   std::vector<double> Enclosed;
 
   bool AnyEnclosed() const;

@@ -355,30 +355,42 @@ void Geometry::PreferOwnBacks(
   const std::vector<Hit>& surfaces, std::vector<Crossing>& crossings) const
 {
   const double gap = 2.0 * this->Tolerance_;
-  /// The hit with a given side at a crossing that belongs to the body whose back is at the other
-  /// end of the way there.
-  const auto ownBack = [&](const Crossing& crossing, const Hit& end, int side)
+  for (Crossing& crossing : crossings)
   {
-    if (!crossing.Several || end.Emitter || end.Side == 0)
+    const double low = crossing.Arrive.Distance - gap;
+    const double high = crossing.Arrive.Distance + gap;
+    for (auto hit = surfaces.begin(); crossing.Several && hit != surfaces.end(); ++hit)
     {
-      return Hit();
-    }
-    const auto own = std::find_if(surfaces.begin(), surfaces.end(),
-      [&](const Hit& hit)
+      const std::uint32_t body = this->Bodies_[hit->Triangle];
+      if (hit->Distance < low || hit->Distance > high || body == NoBody)
       {
-        return hit.Side == side && std::abs(hit.Distance - crossing.Arrive.Distance) <= gap &&
-               this->Bodies_[hit.Triangle] == this->Bodies_[end.Triangle];
-      });
-    return own == surfaces.end() ? Hit() : *own;
-  };
-  for (std::size_t i = 1; i < crossings.size(); ++i)
-  {
-    Crossing& before = crossings[i - 1];
-    Crossing& after = crossings[i];
-    const Hit arrive = after.Arrive.Emitter ? Hit() : ownBack(after, before.Leave, 1);
-    const Hit leave = before.Leave.Emitter ? Hit() : ownBack(before, after.Arrive, 0);
-    after.Arrive = arrive.Found() ? arrive : after.Arrive;
-    before.Leave = leave.Found() ? OtherSide(leave) : before.Leave;
+        continue;
+      }
+      // Whether the line went into the body where it met that last, and leaves it where it will
+      // meet it next.
+      const auto ofBody = [&](const Hit& other) { return this->Bodies_[other.Triangle] == body; };
+      const auto meets = [&](const Hit& place, int side)
+      {
+        return std::any_of(surfaces.begin(), surfaces.end(),
+          [&](const Hit& other)
+          {
+            return ofBody(other) && other.Side == side &&
+                   std::abs(other.Distance - place.Distance) <= gap;
+          });
+      };
+      const auto last = std::find_if(surfaces.rbegin(), surfaces.rend(),
+        [&](const Hit& other) { return other.Distance < low && ofBody(other); });
+      const auto next = std::find_if(surfaces.begin(), surfaces.end(),
+        [&](const Hit& other) { return other.Distance > high && ofBody(other); });
+      if (hit->Side == 1 && !crossing.Arrive.Emitter && last != surfaces.rend() && meets(*last, 0))
+      {
+        crossing.Arrive = *hit;
+      }
+      if (hit->Side == 0 && !crossing.Leave.Emitter && next != surfaces.end() && meets(*next, 1))
+      {
+        crossing.Leave = OtherSide(*hit);
+      }
+    }
   }
 }
 

@@ -103,9 +103,11 @@ public:
   Geometry(const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize = 0.0,
     double coreSize = 0.0);
 
+  /// Body of a surface triangle that belongs to no solid.
+  static constexpr std::uint32_t NoBody = std::numeric_limits<std::uint32_t>::max();
   /// Lets lines tell what they meet where faces of several bodies lie in one another: within a
   /// solid, its own back.
-  /// @param bodies of the surface triangles
+  /// @param bodies of the surface triangles, as Bodies tells them
   void TellBodies(std::vector<std::uint32_t> bodies) { this->Bodies_ = std::move(bodies); }
 
   bool Empty() const { return this->Surfaces_.Empty() && this->Emitters_.Empty(); }
@@ -156,8 +158,8 @@ private:
   void IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
     Hit& surface, Hit& plate) const;
 
-  /// Where a line comes from, or leads to, the back of a body and several surfaces lie in one
-  /// another, it meets the back of that body.
+  /// Where several surfaces lie in one another, a line that leads through a solid meets the back of
+  /// that.
   void PreferOwnBacks(const std::vector<Hit>& surfaces, std::vector<Crossing>& crossings) const;
 
   TriangleTree Surfaces_, Emitters_;

@@ -1,5 +1,6 @@
 #include "OutsideRegions.h"
 
+#include "LooseParts.h"
 #include "Sampler.h"
 #include "Scene.h"
 
@@ -22,6 +23,8 @@ namespace
 constexpr std::size_t AllRays = 262'144;
 constexpr std::size_t FewestRays = 4;
 constexpr std::size_t MostRays = 64;
+/// From so many on they tell where light hardly passes.
+constexpr std::size_t FewestToPart = 16;
 
 /// Faces of smoke cells that light leaves all smoke through, those of a cell next to each other.
 std::vector<OutsideRegions::Face> OpenFacesOf(const Scene& scene)
@@ -107,6 +110,7 @@ public:
     this->Rays_ = std::clamp(AllRays / this->Count(), FewestRays, MostRays);
   }
 
+  std::size_t Rays() const { return this->Rays_; }
   std::size_t Sides() const { return 2 * this->Patches_.size(); }
   std::size_t Count() const { return this->Sides() + this->Cells_.size(); }
   std::size_t OfCell(std::int64_t cell) const { return this->Sides() + this->Cells_.at(cell); }
@@ -184,7 +188,13 @@ private:
     }
     else if (met.empty() && hit.Found())
     {
-      reach.Places.push_back(2 * this->Scene_.Patch(hit) + hit.Side);
+      // Of surfaces that lie in one another, the one that lines meet.
+      thread_local std::vector<Crossing> crossings;
+      const double gap = 2.0 * this->Scene_.Shapes().Tolerance();
+      this->Scene_.Shapes().Cross(
+        origin, direction, std::max(0.0, hit.Distance - gap), hit.Distance + gap, crossings);
+      const Hit arrive = crossings.empty() ? hit : crossings.front().Arrive;
+      reach.Places.push_back(2 * this->Scene_.Patch(arrive) + arrive.Side);
     }
     reach.Escaping += met.empty() && !hit.Found() ? 1.0 : 0.0;
   }
@@ -234,31 +244,58 @@ OutsideRegions::OutsideRegions(const Scene& scene)
     starts = std::move(next);
   }
 
-  std::unordered_map<std::size_t, std::int32_t> regions;
-  for (const Face& face : this->Faces_)
-  {
-    const std::size_t root = joined.find_set(places.OfCell(face.Cell));
-    this->OfFace_.push_back(
-      regions.try_emplace(root, static_cast<std::int32_t>(regions.size())).first->second);
-  }
-  this->BoundingArea_.assign(regions.size(), 0.0);
-  this->EscapingShare_.assign(regions.size(), 0.0);
+  std::unordered_map<std::size_t, std::vector<std::size_t>> together;
+  std::vector<std::vector<std::size_t>> reached(places.Count());
+  std::vector<double> areas(places.Count(), 0.0);
   for (std::size_t place = 0; place < places.Count(); ++place)
   {
     if (seen[place] != 0)
     {
-      const std::int32_t region = regions.at(joined.find_set(place));
-      this->BoundingArea_[region] += reaches[place].Area;
-      this->EscapingShare_[region] += reaches[place].Escaping;
-      if (place < places.Sides())
-      {
-        this->OfSide_[place] = region;
-      }
+      together[joined.find_set(place)].push_back(place);
+      areas[place] = reaches[place].Area;
+      reached[place] = reaches[place].Places;
     }
   }
-  for (std::size_t region = 0; region < regions.size(); ++region)
+  std::vector<std::int32_t> regions(places.Count(), -1);
+  for (std::size_t place = 0; place < places.Count(); ++place)
   {
-    this->EscapingShare_[region] /= std::max(this->BoundingArea_[region], 1e-300);
+    const auto members = seen[place] != 0 ? together.find(joined.find_set(place)) : together.end();
+    if (members == together.end() || regions[place] >= 0)
+    {
+      continue;
+    }
+    for (const std::vector<std::size_t>& part :
+      places.Rays() < FewestToPart ? std::vector<std::vector<std::size_t>>{members->second}
+                                   : LooseParts(members->second, reached, areas))
+    {
+      double area = 0.0;
+      double escaping = 0.0;
+      for (const std::size_t member : part)
+      {
+        regions[member] = static_cast<std::int32_t>(this->EscapingShare_.size());
+        area += areas[member];
+        escaping += reaches[member].Escaping;
+      }
+      this->BoundingArea_.push_back(area);
+      this->EscapingShare_.push_back(escaping / std::max(area, 1e-300));
+    }
+  }
+  for (const Face& face : this->Faces_)
+  {
+    this->OfFace_.push_back(regions[places.OfCell(face.Cell)]);
+  }
+  std::copy_n(regions.begin(), places.Sides(), this->OfSide_.begin());
+  for (std::size_t place = 0; place < places.Count(); ++place)
+  {
+    for (const std::size_t other : reached[place])
+    {
+      if (regions[other] != regions[place])
+      {
+        // Either way tells it.
+        this->Passages_[std::minmax(regions[place], regions[other])] +=
+          0.5 * areas[place] / static_cast<double>(places.Rays());
+      }
+    }
   }
 }
 

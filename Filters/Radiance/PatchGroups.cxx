@@ -143,9 +143,13 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
       this->First_.push_back(this->Sides_.size());
       for (const std::uint32_t patch : members)
       {
-        this->Sides_.push_back(2 * patch + side);
-        this->Shares_.push_back(static_cast<float>(scene.ExposedArea(patch, side) / area));
-        hits[2 * patch + side] = together;
+        // What is covered stays dark.
+        if (scene.ExposedArea(patch, side) > 0.0)
+        {
+          this->Sides_.push_back(2 * patch + side);
+          this->Shares_.push_back(static_cast<float>(scene.ExposedArea(patch, side) / area));
+          hits[2 * patch + side] = together;
+        }
       }
     }
   }

@@ -40,6 +40,9 @@ double RelativeError(const DoubleLanes& values)
 {
   return StandardError(values) / std::abs(Mean(values));
 }
+/// Share of the light that is emitted by which what is lost may differ from it: what settles is a
+/// hundred times closer.
+constexpr double MostImbalance = 0.5;
 
 } // namespace
 
@@ -137,6 +140,23 @@ void PowerBalance::ExpectLoss(const std::vector<Powers>& powers) const
     throw Error("light field",
       "hardly any light is lost anywhere, so that it would grow nearly without end",
       "Give the smoke an albedo, or some surface a reflectance, below 1, or open the scene");
+  }
+}
+
+void PowerBalance::ExpectBalance(const std::vector<Powers>& powers) const
+{
+  DoubleLanes losses;
+  std::transform(
+    powers.begin(), powers.end(), losses.begin(), [](const Powers& own) { return own.Lost; });
+  const double lost = Mean(losses);
+  const bool balanced = std::abs(lost - this->Source_) <= MostImbalance * this->Source_ &&
+                        StandardError(losses) <= MostImbalance * this->Source_;
+  if (this->Source_ > 0.0 && !this->Sky_ && !balanced)
+  {
+    throw Error("light field",
+      "the light did not settle: of " + std::to_string(this->Source_) + " lm that are scattered " +
+        std::to_string(lost) + " lm are lost",
+      "Give a smaller tolerance, or a finer mesh where the smoke is dense");
   }
 }
 

@@ -47,6 +47,8 @@ public:
     const std::vector<Powers>& powers, double Powers::*by = &Powers::SentAgain) const;
   /// Throws Error where hardly any light is ever lost.
   void ExpectLoss(const std::vector<Powers>& powers) const;
+  /// Throws Error where what is lost is far from what is emitted: light that does not settle.
+  void ExpectBalance(const std::vector<Powers>& powers) const;
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
   /// they do not agree better each for itself.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;

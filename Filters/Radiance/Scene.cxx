@@ -166,7 +166,7 @@ void Scene::FindShapes(double size)
   const SurfaceMesh& surfaces = this->Description_.Surfaces;
   const auto shapes = std::make_shared<Geometry>(
     surfaces, this->EmitterMesh_, size, glm::length(this->Smoke_.Upper() - this->Smoke_.Lower()));
-  const Bodies bodies(*shapes, surfaces);
+  const Bodies bodies(*shapes, surfaces, this->EmitterMesh_);
   this->Exposure_ = FindExposure(*shapes, bodies, surfaces, this->EmitterMesh_);
   if (this->Exposure_.AnyEnclosed())
   {

@@ -91,7 +91,7 @@ public:
   {
     return this->Exposure_.Exposed[2 * patch + side];
   }
-  /// Area of one side of a patch that a closed solid stands on: dark, while the rest is lit [m2].
+  /// Area of one side of a patch that a closed solid stands on, which is dark [m2].
   double EnclosedArea(std::size_t patch, int side) const
   {
     return this->Exposure_.Enclosed[2 * patch + side];

@@ -181,6 +181,7 @@ void Settling::Run()
       }
       if (most || verdict.Settled)
       {
+        this->Balance_.ExpectBalance(powers);
         this->Sweeps_.Sweep().Watch({});
         return;
       }

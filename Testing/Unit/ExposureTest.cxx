@@ -60,6 +60,26 @@ TEST(Exposure, OfAFloorInTheCornerOfARoom)
   ExpectOfFloor(mesh, 0, 3.0, 1.0);
 }
 
+// Within a box in the edge of a floor and a wall, both of which come first in the model, a line
+// from one to the other meets the box's own backs.
+TEST(Exposure, LinesWithinABoxMeetItsBacks)
+{
+  SceneDescription description;
+  SurfaceMesh& mesh = description.Surfaces;
+  scenes::AddRoom(mesh, Vec3(-1.0, -1.0, 0.0), Vec3(1.0, 1.0, 2.0), Edge, 0.5);
+  const std::size_t room = mesh.CellReflectance.size();
+  scenes::AddBlock(mesh, Vec3(0.0, -0.5, 0.0), Vec3(1.0, 0.5, 1.0), 0.3, 0.5);
+  const Scene scene(std::move(description));
+  std::vector<Crossing> crossings;
+  const Vec3 direction = glm::normalize(Vec3(1.0, 0.1, 1.0));
+  scene.Shapes().Cross(Vec3(0.5, 0.03, 0.0) - 0.1 * direction, direction, 0.0, 3.0, crossings);
+  ASSERT_EQ(crossings.size(), 2U);
+  EXPECT_GE(scene.Patch(crossings[0].Leave), room);
+  EXPECT_EQ(crossings[0].Leave.Side, 1);
+  EXPECT_GE(scene.Patch(crossings[1].Arrive), room);
+  EXPECT_EQ(crossings[1].Arrive.Side, 1);
+}
+
 // A box without its bottom leaves the floor's own part, dark as it is.
 TEST(Exposure, OfAFloorUnderAHood)
 {

@@ -46,6 +46,44 @@ TEST(OutsideRegions, BelowAndAboveALayer)
   }
 }
 
+// A hole of 0.2 x 0.2 m in the middle of the wall between two rooms, smoke in one of them.
+TEST(OutsideRegions, TwoRoomsAndAHole)
+{
+  constexpr double reach = 0.1;
+  SceneDescription description = Room(Vec3(-0.5), Vec3(0.5));
+  SurfaceMesh& mesh = description.Surfaces;
+  scenes::AddRoom(mesh, Vec3(1.0, -1.0, -1.0), Vec3(3.0, 1.0, 1.0), 0.5, 0.5);
+  std::erase_if(mesh.Triangles,
+    [&](const auto& corners)
+    {
+      return mesh.Points[corners[0]].x + mesh.Points[corners[1]].x + mesh.Points[corners[2]].x ==
+             3.0;
+    });
+  mesh.TriangleCell.resize(mesh.Triangles.size());
+  const auto addWall = [&mesh](double y, double z, double width, double height)
+  {
+    const Vec3 along(0.0, width, 0.0);
+    const Vec3 up(0.0, 0.0, height);
+    scenes::AddRectangle(mesh, {1.0, y, z}, along, up, 4, 4, 0.5);
+  };
+  addWall(-1.0, -1.0, 2.0, 1.0 - reach);
+  addWall(-1.0, reach, 2.0, 1.0 - reach);
+  addWall(-1.0, -reach, 1.0 - reach, 2.0 * reach);
+  addWall(reach, -reach, 1.0 - reach, 2.0 * reach);
+  const Scene scene(std::move(description));
+  const OutsideRegions regions(scene);
+  ASSERT_EQ(regions.Count(), 2U);
+  ASSERT_EQ(regions.Passages().size(), 1U);
+  const double hole = 4.0 * reach * reach;
+  EXPECT_NEAR(regions.Passages().begin()->second, hole, 0.25 * hole);
+  for (std::size_t face = 0; face < regions.Faces().size(); ++face)
+  {
+    EXPECT_EQ(regions.OfFace(face), regions.OfFace(0));
+  }
+  const std::size_t other = 1 - static_cast<std::size_t>(regions.OfFace(0));
+  EXPECT_NEAR(regions.BoundingArea(other), 24.0 - hole, 0.01);
+}
+
 // What light of even fluence escapes through the missing ceiling, 4 m2 of it, comes from all else.
 TEST(OutsideRegions, RoomWithoutACeiling)
 {
