@@ -40,9 +40,9 @@ double RelativeError(const DoubleLanes& values)
 {
   return StandardError(values) / std::abs(Mean(values));
 }
-/// Share of the light that is emitted by which what is lost may differ from it: what settles is a
-/// hundred times closer.
-constexpr double MostImbalance = 0.5;
+/// Light that is emitted, by so many times of which what is lost may differ from it: what few lines
+/// find may be noise, but no more than this.
+constexpr double MostImbalance = 1000.0;
 
 } // namespace
 
