@@ -1,6 +1,7 @@
 // Light that reaches points, smoke cells and surface patches straight from the emitters.
 #pragma once
 
+#include "Deepening.h"
 #include "Medium.h"
 #include "Triangle.h"
 #include "Types.h"
@@ -122,35 +123,42 @@ private:
   std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
   /// Mean fluence over a part of a cell that walls cut.
   Spectrum PartFluence(std::size_t light, const CellPart& part) const;
-  /// A light as a box of smoke sees it.
+  /// A light as a box in a smoke cell sees it.
   struct BoxLight
   {
     std::size_t Index;
+    std::int64_t Cell;
     /// Nothing hides it from the box.
-    bool Clear = false;
-    /// Mean along the way to the centre of the box, if known [1/m].
-    std::optional<double> Extinction{};
+    bool Clear;
+    /// Around that from the centre of the box.
+    Deepening Ways;
+    /// One way stands for all ways from a place to the light.
+    bool Far = false;
     /// A few percent of its fluence do not matter beside other lights'.
     bool Weak = false;
     /// Its fluence around it, if kept.
     const NearField* Near = nullptr;
   };
-  Spectrum Fluence(const BoxLight& light, const Vec3& point) const;
+  /// Fluence at a point.
+  /// @param extinction mean along all ways to the light, if known [1/m]
+  Spectrum Fluence(
+    const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const;
+  /// Mean fluence over the whole of the light's cell.
+  Spectrum WholeCellFluence(BoxLight light) const;
   Spectrum BoxFluence(
     const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
-  /// Mean extinction along the way from a place in a box, which differs from the way to its centre
-  /// inside the box alone, where that is known [1/m].
+  /// Mean extinction along all ways from a place in a box, where one stands for all [1/m].
   std::optional<double> ExtinctionFrom(
     const BoxLight& light, const Vec3& centre, const Vec3& place) const;
   /// Largest optical depth along an edge of a box, of any band.
-  double BoxDepth(const Vec3& centre, const Vec3& size) const;
-  /// Whether the smoke that light comes from is about as dense as that around a point: ways to
-  /// places beside it differ by that smoke, then.
-  /// @param from the light's place to the point
-  bool EvenTowards(const Vec3& centre, const Vec3& from) const;
+  double BoxDepth(std::int64_t cell, const Vec3& size) const;
+  /// By how much the way to a light deepens along an edge of a box, at most.
+  double SteepestDepth(const BoxLight& light, const Vec3& size) const;
+  /// Whether the smoke that light comes from is about as dense as that of a cell: ways to places
+  /// beside its centre differ by that smoke, then.
+  /// @param from the light's place to the cell
+  bool EvenTowards(std::int64_t cell, const Vec3& from) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
-  /// Mean extinction between a cell's centre and a light's [1/m].
-  double WayExtinction(const LightGroup& root, std::int64_t cell) const;
   /// Ways from the cells of a block to a light that is far from it.
   struct BlockWays
   {

@@ -1,6 +1,7 @@
 // DirectLight's part for blocks of smoke cells, which share the ways to a light.
 #include "DirectLight.h"
 
+#include "LightWays.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -75,14 +76,6 @@ double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
 
 } // namespace
 
-double DirectLight::WayExtinction(const LightGroup& root, std::int64_t cell) const
-{
-  const Medium& smoke = this->Scene_.Smoke();
-  const Vec3 from = smoke.CellCentre(cell);
-  const double distance = glm::length(root.Centre - from);
-  return smoke.OpticalDepth(from, (root.Centre - from) / distance, 0.0, distance) / distance;
-}
-
 double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
   double extinction, double rough, const std::vector<Spectrum>& sums) const
 {
@@ -141,6 +134,7 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
   {
     return std::nullopt;
   }
+  const LightWays toLight(smoke, this->Scene_.LargestScale(), root);
   BlockWays ways;
   ways.Extinction.assign(block.Cells(), Unknown);
   const auto walk = [&](const std::array<int, 3>& place)
@@ -148,7 +142,7 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
     double& extinction = ways.Extinction[block.Number(place)];
     if (std::isnan(extinction))
     {
-      extinction = this->WayExtinction(root, smoke.Cell(block, place));
+      extinction = toLight.Extinction(smoke.Cell(block, place));
     }
     return extinction;
   };
@@ -253,6 +247,10 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
     work.Negligible = block.Cells();
     return work;
   }
+  const bool weak = ways && ways->Share < WeakShare;
+  const std::vector<Deepening> deepening =
+    LightWays(smoke, this->Scene_.LargestScale(), root)
+      .DeepeningIn(block, ways ? ways->Extinction : std::vector<double>(), weak);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -263,16 +261,15 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
         return;
       }
       // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-      const std::optional<Spectrum> kept = ways ? this->KeptFluence(light, cell) : std::nullopt;
-      const Spectrum value =
-        !ways  ? this->CellFluence(light, cell)
-        : kept ? *kept
-               : this->BoxFluence(
-                   {light, false, ways->Extinction[block.Number(place)], ways->Share < WeakShare},
-                   smoke.CellCentre(cell), smoke.CellSize(cell), 0);
+      std::optional<Spectrum> value = this->KeptFluence(light, cell);
+      if (!value)
+      {
+        value = this->WholeCellFluence(
+          {light, cell, false, deepening[block.Number(place)], ways.has_value(), weak});
+      }
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        sums[cell][band] += value[band];
+        sums[cell][band] += (*value)[band];
       }
     });
   work.Told = ways ? ways->Told : 0;

@@ -3,6 +3,7 @@
 
 #include "ExponentialMean.h"
 #include "GaussNodes.h"
+#include "LightWays.h"
 #include "NearLights.h"
 #include "Places.h"
 #include "Scene.h"
@@ -126,11 +127,17 @@ Spectrum DirectLight::NearCellFluence(
   {
     return this->PartFluence(light, *part);
   }
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 centre = smoke.CellCentre(cell);
   const Vec3 size = smoke.CellSize(cell);
-  BoxLight box{light, clear};
-  // In the thickest cells light does not follow what is interpolated.
-  box.Near = clear && this->BoxDepth(centre, size) < DeepestGauss ? kept : nullptr;
+  BoxLight box{
+    light, cell, clear, LightWays(smoke, this->Scene_.LargestScale(), root).DeepeningOf(cell)};
+  // In the thickest cells light does not follow what is interpolated, nor behind a border of smoke.
+  if (clear && this->BoxDepth(cell, size) < DeepestGauss &&
+      this->EvenTowards(cell, centre - root.Centre))
+  {
+    box.Near = kept;
+  }
   return this->BoxFluence(box, centre, size, BoxSplits);
 }
 
@@ -146,10 +153,23 @@ Spectrum DirectLight::CellFluence(std::size_t light, std::int64_t cell) const
     return this->PartFluence(light, *part);
   }
   const LightGroup& root = this->Scene_.Lights().Root(light);
-  const Vec3 centre = smoke.CellCentre(cell);
-  const Vec3 size = smoke.CellSize(cell);
-  const bool splits = LargestEdge(size) * root.Law.Sharpness() > BoxRatio * root.Distance(centre);
-  return this->BoxFluence({light, splits && this->Clear(light, cell)}, centre, size, BoxSplits);
+  return this->WholeCellFluence(
+    {light, cell, false, LightWays(smoke, this->Scene_.LargestScale(), root).DeepeningOf(cell)});
+}
+
+Spectrum DirectLight::WholeCellFluence(BoxLight light) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Box whole = this->Scene_.Smoke().BoxOf(light.Cell);
+  const Vec3 centre = 0.5 * (whole.Lower + whole.Upper);
+  const Vec3 size = whole.Upper - whole.Lower;
+  const double sharpness = root.Law.Sharpness();
+  const bool splits =
+    !light.Far && LargestEdge(size) * sharpness > BoxRatio * root.Distance(centre);
+  light.Clear = splits && this->Clear(light.Index, light.Cell);
+  light.Far = light.Far ||
+              (!splits && root.Radius * sharpness < PathRatio * glm::length(centre - root.Centre));
+  return this->BoxFluence(light, centre, size, splits ? BoxSplits : 0);
 }
 
 Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
@@ -208,7 +228,8 @@ Spectrum DirectLight::PartFluence(std::size_t light, const CellPart& part) const
   return sum;
 }
 
-Spectrum DirectLight::Fluence(const BoxLight& light, const Vec3& point) const
+Spectrum DirectLight::Fluence(
+  const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const
 {
   if (light.Near && light.Near->Smooth(point))
   {
@@ -219,9 +240,9 @@ Spectrum DirectLight::Fluence(const BoxLight& light, const Vec3& point) const
     }
     return value;
   }
-  return light.Extinction ? this->Fluence(light.Index,
-                              Receiver{point, std::nullopt, light.Clear, {}, light.Extinction})
-                          : this->Fluence(light.Index, point, light.Clear);
+  return extinction
+           ? this->Fluence(light.Index, Receiver{point, std::nullopt, light.Clear, {}, extinction})
+           : this->Fluence(light.Index, point, light.Clear);
 }
 
 Spectrum DirectLight::BoxFluence(
@@ -243,7 +264,9 @@ Spectrum DirectLight::BoxFluence(
     for (int part = 0; part < 8; ++part)
     {
       const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
-      const Spectrum value = this->BoxFluence(light, centre + shift * size, 0.5 * size, splits - 1);
+      BoxLight moved = light;
+      moved.Ways = light.Ways.Moved(from, shift * size);
+      const Spectrum value = this->BoxFluence(moved, centre + shift * size, 0.5 * size, splits - 1);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += 0.125 * value[band];
@@ -268,34 +291,25 @@ Spectrum DirectLight::BoxFluence(
   {
     return {};
   }
-  const double depth = this->BoxDepth(centre, size);
-  if (!close && !light.Weak && depth < DeepestGauss &&
-      (depth > FlatDepth || edge > FlatRatio * distance))
+  const double depth = this->BoxDepth(light.Cell, size);
+  const bool deepest = this->SteepestDepth(light, size) >= DeepestGauss;
+  if (!close && !light.Weak && !deepest && (depth > FlatDepth || edge > FlatRatio * distance))
   {
     return this->GaussFluence(light, centre, size);
   }
-  // Mean over the box. Along the light exp(-K s) is exact; its mean lies at a place of its own,
-  // where the rest of the light's variation is taken.
+  // Mean over the box. Along a slope of the optical depth its exponential is exact; its mean lies
+  // at a place of its own, where the rest of the light's variation is taken.
   const Vec3 along = toCentre > root.Radius ? from / toCentre : root.Normal;
-  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-  const double extinction =
-    cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(0);
   Vec3 place = middle;
   for (int axis = 0; axis < 3; ++axis)
   {
-    place[axis] -= 0.5 * extent[axis] * Langevin(0.5 * extinction * along[axis] * extent[axis]);
+    place[axis] -=
+      0.5 * extent[axis] *
+      Langevin(0.5 * this->Scene_.ExtinctionScale(0) * light.Ways.Slope[axis] * extent[axis]);
   }
-  BoxLight moved = light;
-  if (depth >= DeepestGauss && !light.Weak)
-  {
-    // Its light comes by ways beside that to the centre.
-    moved.Extinction.reset();
-  }
-  else
-  {
-    moved.Extinction = this->ExtinctionFrom(light, centre, place);
-  }
-  Spectrum value = this->Fluence(moved, place);
+  // To the deepest boxes light comes by ways beside that to the centre.
+  Spectrum value = this->Fluence(light, place,
+    deepest && !light.Weak ? std::nullopt : this->ExtinctionFrom(light, centre, place));
   double curvature = 1.0;
   if (!close)
   {
@@ -308,20 +322,20 @@ Spectrum DirectLight::BoxFluence(
   }
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    const double k = extinction * this->Scene_.ExtinctionScale(band) /
-                     std::max(1e-300, this->Scene_.ExtinctionScale(0));
     // Off its axis a way is longer: second derivatives of the distance.
     double longer = 0.0;
     for (int axis = 0; axis < 3 && !close; ++axis)
     {
       longer += extent[axis] * extent[axis] * (1.0 - along[axis] * along[axis]) / (24.0 * toCentre);
     }
-    double factor = lit * curvature * std::exp(-k * longer);
+    const double scale = this->Scene_.ExtinctionScale(band);
+    double factor = lit * curvature * std::exp(-scale * light.Ways.Mean * longer);
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double half = 0.5 * k * along[axis] * extent[axis];
-      const double first = 0.5 * extinction * along[axis] * extent[axis];
-      factor *= MeanAttenuation(half, Langevin(first));
+      const double half = 0.5 * light.Ways.Slope[axis] * extent[axis];
+      factor *= MeanAttenuation(scale * half, Langevin(this->Scene_.ExtinctionScale(0) * half));
+      factor *= std::exp(-0.125 * scale * light.Ways.Bend[axis] * extent[axis] * extent[axis] *
+                         LangevinSlope(scale * half));
     }
     value[band] *= factor;
   }
@@ -332,33 +346,30 @@ std::optional<double> DirectLight::ExtinctionFrom(
   const BoxLight& light, const Vec3& centre, const Vec3& place) const
 {
   const Vec3& target = this->Scene_.Lights().Root(light.Index).Centre;
-  const double toCentre = glm::length(target - centre);
-  const double way = glm::length(target - place);
-  if (!light.Extinction || !(way > 0.0))
+  const double distance = glm::length(place - target);
+  if (!light.Far || !(distance > 0.0))
   {
-    return light.Extinction;
+    return std::nullopt;
   }
-  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-  const double inside = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
-  return std::max(0.0, *light.Extinction * toCentre + inside * (way - toCentre)) / way;
+  const Vec3 from = centre - target;
+  const double depth = light.Ways.Mean * glm::length(from) + light.Ways.At(from, place - centre);
+  return std::max(0.0, depth) / distance;
 }
 
-double DirectLight::BoxDepth(const Vec3& centre, const Vec3& size) const
+double DirectLight::BoxDepth(std::int64_t cell, const Vec3& size) const
 {
-  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-  return cell < 0 ? 0.0
-                  : this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() *
-                      LargestEdge(size);
+  return this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() * LargestEdge(size);
 }
 
-bool DirectLight::EvenTowards(const Vec3& centre, const Vec3& from) const
+double DirectLight::SteepestDepth(const BoxLight& light, const Vec3& size) const
+{
+  return std::max(this->BoxDepth(light.Cell, size),
+    LargestEdge(glm::abs(light.Ways.Slope) * size) * this->Scene_.LargestScale());
+}
+
+bool DirectLight::EvenTowards(std::int64_t cell, const Vec3& from) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const std::int64_t cell = smoke.Locate(centre);
-  if (cell < 0)
-  {
-    return true;
-  }
   const Vec3 size = smoke.CellSize(cell);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -379,17 +390,15 @@ Spectrum DirectLight::GaussFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const std::vector<GaussPlace> places =
-    GaussPlaces(centre, size, this->BoxDepth(centre, size) < TwoPointDepth ? 2 : 3);
+    GaussPlaces(centre, size, this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3);
   Spectrum sum{};
-  const bool even = this->EvenTowards(centre, from);
+  const bool even = this->EvenTowards(light.Cell, from);
   if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
   {
     for (const GaussPlace& place : places)
     {
-      BoxLight moved = light;
-      moved.Extinction =
-        even ? this->ExtinctionFrom(light, centre, place.Point) : std::optional<double>();
-      const Spectrum value = this->Fluence(moved, place.Point);
+      const Spectrum value = this->Fluence(
+        light, place.Point, even ? this->ExtinctionFrom(light, centre, place.Point) : std::nullopt);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[band] += place.Weight * value[band];
@@ -397,18 +406,19 @@ Spectrum DirectLight::GaussFluence(
     }
     return sum;
   }
-  // Ways to the places in the box differ from the one to its centre inside the box alone.
-  Receiver receiver{centre, std::nullopt, light.Clear, {}, light.Extinction};
+  Receiver receiver{centre, std::nullopt, light.Clear};
+  if (light.Far)
+  {
+    receiver.Extinction = light.Ways.Mean;
+  }
   const Path path = this->SamplePath(root, receiver);
   if (path.Visible == 0.0)
   {
     return {};
   }
-  const std::int64_t cell = this->Scene_.Smoke().Locate(centre);
-  const double extinction = cell < 0 ? 0.0 : this->Scene_.Smoke().Extinction(cell);
   const double depth = path.MeanExtinction * toCentre;
-  const auto depthAt = [&](double distance)
-  { return std::max(0.0, depth + extinction * (distance - toCentre)); };
+  const auto depthAt = [&](const Vec3& place)
+  { return std::max(0.0, depth + light.Ways.At(from, place - centre)); };
   receiver.Clear = true;
   const double height = glm::dot(from, root.Normal);
   const auto steady = [&]
@@ -430,7 +440,7 @@ Spectrum DirectLight::GaussFluence(
     {
       const Vec3 way = place.Point - root.Centre;
       const double weight = place.Weight * PointLight(root, way) / atCentre;
-      const double further = depthAt(glm::length(way)) - depth;
+      const double further = depthAt(place.Point) - depth;
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * further);
@@ -444,9 +454,8 @@ Spectrum DirectLight::GaussFluence(
   }
   for (const GaussPlace& place : places)
   {
-    const double distance = glm::length(root.Centre - place.Point);
     receiver.Point = place.Point;
-    receiver.Extinction = depthAt(distance) / distance;
+    receiver.Extinction = depthAt(place.Point) / glm::length(root.Centre - place.Point);
     const Spectrum value = this->Fluence(light.Index, receiver);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {

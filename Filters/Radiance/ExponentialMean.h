@@ -1,6 +1,7 @@
 // Means of what rises or falls exponentially over a stretch.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace smokevis
@@ -32,6 +33,18 @@ inline double Langevin(double h)
   const double square = h * h;
   return h * (11486475.0 + square * (810810.0 + square * (12870.0 + square * 44.0))) /
          (34459425.0 + square * (4729725.0 + square * (135135.0 + square * (990.0 + square))));
+}
+
+/// Derivative of Langevin's function: four times the variance of the place t there.
+inline double LangevinSlope(double h)
+{
+  const double size = std::abs(h);
+  if (size < 0.1)
+  {
+    return 1.0 / 3.0 - size * size / 15.0;
+  }
+  const double sinh = std::sinh(std::min(size, 300.0));
+  return 1.0 / (size * size) - 1.0 / (sinh * sinh);
 }
 
 } // namespace smokevis

@@ -268,6 +268,10 @@ double Medium::CellVolume(std::int64_t cell) const
 double Medium::OwnVolume(std::int64_t cell) const
 {
   const double volume = this->CellVolume(cell);
+  if (!this->Overlap_)
+  {
+    return volume;
+  }
   std::array<int, 3> index;
   const Grid& grid = this->GridOf(cell, index);
   // A part is covered as its cell is.
@@ -319,7 +323,7 @@ double Medium::MeanChord(std::int64_t cell) const
 
 bool Medium::Covered(std::int64_t cell) const
 {
-  return this->OwnVolume(cell) < this->CellVolume(cell);
+  return this->Overlap_ && this->OwnVolume(cell) < this->CellVolume(cell);
 }
 
 Vec3 Medium::CellSize(std::int64_t cell) const

@@ -7,6 +7,8 @@
 #include "WorkCount.h"
 
 #include <cmath>
+#include <numbers>
+#include <tuple>
 
 namespace
 {
@@ -186,6 +188,82 @@ TEST(Balance, ThickCellsBehindClearAir)
                          std::to_string(place).substr(0, 3),
         solved.TheScene->Lights().Flux(0), smoke.Mean + walls.Mean, 0.002 + 0.003 * depth,
         std::hypot(smoke.StandardError, walls.StandardError));
+    }
+  }
+}
+
+/// Power that a uniform cube of smoke takes up of a square lamp's light [lm]: the integral over the
+/// lamp and all directions, over each of which 1 - exp(-K s) is taken up on the chord s.
+double TakenByCube(const EmitterCell& lamp, double luminance, double extinction, const Box& cube)
+{
+  constexpr int Places = 6;
+  constexpr int Directions = 480;
+  const Vec3 along = lamp.Vertices[1] - lamp.Vertices[0];
+  const Vec3 up = lamp.Vertices[3] - lamp.Vertices[0];
+  const Vec3 first = glm::normalize(along);
+  const Vec3 second = glm::normalize(up);
+  const Vec3 normal = glm::cross(first, second);
+  double sum = 0.0;
+  for (int place = 0; place < Places * Places; ++place)
+  {
+    const Vec3 origin = lamp.Vertices[0] + (place % Places + 0.5) / Places * along +
+                        (place / Places + 0.5) / Places * up;
+    for (int i = 0; i < Directions; ++i)
+    {
+      // Rings of equal power.
+      const double sine = std::sqrt((i + 0.5) / Directions);
+      for (int j = 0; j < Directions; ++j)
+      {
+        const double angle = 2.0 * std::numbers::pi * (j + 0.5) / Directions;
+        const Vec3 direction = sine * (std::cos(angle) * first + std::sin(angle) * second) +
+                               std::sqrt(1.0 - sine * sine) * normal;
+        double begin = 0.0;
+        double end = 1e3;
+        if (cube.Clip(origin, 1.0 / direction, begin, end))
+        {
+          sum -= std::expm1(-extinction * (end - begin));
+        }
+      }
+    }
+  }
+  const double power = std::numbers::pi * luminance * glm::length(along) * glm::length(up);
+  return power * sum / (Places * Places * Directions * Directions);
+}
+
+// Light that comes into smoke aslant gets dark faster behind its border than the cells are deep.
+TEST(Balance, LampAsideOfACloud)
+{
+  report::Head("Direct light of a lamp aside of a cloud in clear air, taken up there [lm]");
+  const Box cube{Vec3(0.0), Vec3(1.0)};
+  for (const auto& [name, centre, normal] :
+    {std::tuple{"above", Vec3(0.5, 0.5, 2.0), Vec3(0, 0, -1)},
+      {"aside", Vec3(-0.15, 0.5, 1.15), Vec3(0, 0, -1)},
+      {"askew", Vec3(-1.0, -0.7, 1.6), Vec3(0.6, 0.4, -0.69)}})
+  {
+    for (const double depth : {0.0625, 0.25, 0.625})
+    {
+      constexpr int Cells = 16;
+      SceneDescription scene;
+      scene.Albedo = 0.0;
+      constexpr double edge = 1.0 / Cells;
+      SmokeGrid grid = scenes::UniformSmoke(
+        Vec3(-edge), Vec3(1.0 + edge), {Cells + 2, Cells + 2, Cells + 2}, depth / edge);
+      for (std::size_t i = 0; i < grid.Extinction.size(); ++i)
+      {
+        const auto inside = [](std::size_t place) { return place > 0 && place <= Cells; };
+        constexpr std::size_t row = Cells + 2;
+        grid.Extinction[i] *=
+          inside(i % row) && inside(i / row % row) && inside(i / (row * row)) ? 1.0F : 0.0F;
+      }
+      scene.Grids = {grid};
+      const double luminance = 100.0;
+      scene.Emitters = {
+        scenes::Plate(centre, glm::normalize(normal), {0, 1, 0}, 0.1, 0.1, luminance)};
+      const Solved solved(scene);
+      report::Relative(
+        std::string(name) + ", depth of a cell " + std::to_string(depth).substr(0, 5),
+        TakenByCube(scene.Emitters[0], luminance, depth / edge, cube),
+        solved.AbsorbedInSmoke().Mean, 0.006);
     }
   }
 }

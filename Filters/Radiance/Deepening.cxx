@@ -1,0 +1,100 @@
+#include "Deepening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// The derivative that the way from one cell beside another tells, and how far from the cell's
+/// centre that is met: in the middle of half of the cell and half of the other, each by its smoke.
+struct SlopeBeside
+{
+  double Slope, Place;
+
+  /// @param even the derivative in even smoke
+  SlopeBeside(const CellWay& cell, const CellWay& other, int axis, double even)
+  {
+    const double own = cell.Extinction * cell.Size[axis];
+    const double others = other.Extinction * other.Size[axis];
+    const double edges = cell.Size[axis] + other.Size[axis];
+    const double between = (own + others) / edges;
+    const double share = between > 0.0 ? cell.Extinction / between : 1.0;
+    const double excess = cell.Depth - other.Depth - between * (cell.Distance - other.Distance);
+    this->Slope = even + share * excess / (cell.Centre[axis] - other.Centre[axis]);
+    this->Place =
+      0.25 * (between > 0.0 ? cell.Size[axis] + others / (own + others) * edges : edges);
+  }
+};
+
+/// None at the light's own place, which all ways lead away from.
+Vec3 DirectionOf(const Vec3& way)
+{
+  const double distance = glm::length(way);
+  return distance > 0.0 ? way / distance : Vec3(0.0);
+}
+
+} // namespace
+
+Deepening Deepening::Even(const CellWay& cell, const Vec3& light)
+{
+  const double mean = cell.Distance > 0.0 ? cell.Depth / cell.Distance : cell.Extinction;
+  return {mean, cell.Extinction * DirectionOf(cell.Centre - light)};
+}
+
+Deepening Deepening::Within(const CellWay& cell,
+  const std::array<std::array<const CellWay*, 2>, 3>& beside, const Vec3& light)
+{
+  Deepening result = Even(cell, light);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double& slope = result.Slope[axis];
+    const CellWay* low = beside[axis][0];
+    const CellWay* high = beside[axis][1];
+    if (!low || !high)
+    {
+      const CellWay* one = low ? low : high;
+      slope = one ? SlopeBeside(cell, *one, axis, slope).Slope : slope;
+      continue;
+    }
+    const SlopeBeside below(cell, *low, axis, slope);
+    const SlopeBeside above(cell, *high, axis, slope);
+    const double change = (above.Slope - below.Slope) / (below.Place + above.Place);
+    slope = below.Slope + change * below.Place;
+    // Where the two differ much, one crosses a border that the cell lies beside.
+    const double least = below.Slope * above.Slope > 0.0
+                           ? std::min(std::abs(below.Slope), std::abs(above.Slope))
+                           : 0.0;
+    if (std::abs(slope) > 2.0 * least)
+    {
+      slope = std::copysign(2.0 * least, slope);
+      continue;
+    }
+    // No bend turns the slope within the cell.
+    const double along = (cell.Centre[axis] - light[axis]) / cell.Distance;
+    const double most = 2.0 * std::abs(slope) / cell.Size[axis];
+    result.Bend[axis] =
+      std::clamp(change + (cell.Extinction - result.Mean) * (1.0 - along * along) / cell.Distance,
+        -most, most);
+  }
+  return result;
+}
+
+Deepening Deepening::Moved(const Vec3& from, const Vec3& step) const
+{
+  Deepening moved = *this;
+  moved.Slope += this->Bend * step + this->Mean * (DirectionOf(from + step) - DirectionOf(from));
+  return moved;
+}
+
+double Deepening::At(const Vec3& from, const Vec3& step) const
+{
+  return glm::dot(this->Slope + 0.5 * this->Bend * step, step) +
+         this->Mean *
+           (glm::length(from + step) - glm::length(from) - glm::dot(DirectionOf(from), step));
+}
+
+} // namespace smokevis

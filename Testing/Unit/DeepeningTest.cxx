@@ -1,0 +1,125 @@
+// How ways to a light get deeper within smoke cells, against closed forms.
+#include "LightWays.h"
+#include "SceneLibrary.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr double Extinction = 12.0;
+constexpr double Edge = 0.05;
+/// Height below which there is smoke.
+constexpr double Top = 0.6;
+
+LightGroup LightAt(const Vec3& place)
+{
+  LightGroup light;
+  light.Centre = place;
+  light.Corners.fill(place);
+  return light;
+}
+
+/// A mesh of 2 x 1 x 1 m with a layer of smoke on its floor.
+Medium Layer()
+{
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
+  {
+    const double height = Edge * (static_cast<double>(cell / 800) + 0.5);
+    grid.Extinction[cell] = height < Top ? Extinction : 0.0F;
+  }
+  return Medium({grid});
+}
+
+// Above the layer, at a height h above its top, a light shines through a depth z of it along a way
+// of length D: the optical depth is K D z / (z + h).
+TEST(Deepening, LightFallsAslantIntoALayer)
+{
+  const Medium smoke = Layer();
+  const Vec3 place(0.05, 0.47, 1.1);
+  const LightGroup light = LightAt(place);
+  const LightWays ways(smoke, 1.0, light);
+  for (const double x : {0.225, 0.625, 1.025, 1.775})
+  {
+    for (const double depth : {0.025, 0.075, 0.225, 0.525})
+    {
+      const Vec3 centre(x, 0.525, Top - depth);
+      const Vec3 from = centre - place;
+      const Deepening around = ways.DeepeningOf(smoke.Locate(centre));
+      const auto exact = [&](const Vec3& step)
+      {
+        const Vec3 way = from + step;
+        return Extinction * glm::length(way) * (depth - step.z) / -way.z;
+      };
+      const double here = exact(Vec3(0.0));
+      EXPECT_NEAR(around.Mean, here / glm::length(from), 1e-6 * Extinction);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Vec3 step(0.0);
+        for (const double size : {-0.5 * Edge, 0.5 * Edge})
+        {
+          step[axis] = size;
+          // Of the depth along an edge in even smoke, a fiftieth.
+          EXPECT_NEAR(around.At(from, step), exact(step) - here, 0.02 * Extinction * Edge)
+            << "at " << x << ", depth " << depth << ", axis " << axis << ", step " << size;
+        }
+      }
+    }
+  }
+}
+
+// In even smoke the depth goes with the distance.
+TEST(Deepening, EvenSmoke)
+{
+  const Medium smoke({scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction)});
+  const Vec3 place(0.21, 0.47, 0.93);
+  const LightGroup light = LightAt(place);
+  const LightWays ways(smoke, 1.0, light);
+  const Vec3 centre(0.525, 0.325, 0.425);
+  const Vec3 from = centre - place;
+  const Deepening around = ways.DeepeningOf(smoke.Locate(centre));
+  const Vec3 step(0.02, -0.013, 0.017);
+  EXPECT_NEAR(
+    around.At(from, step), Extinction * (glm::length(from + step) - glm::length(from)), 1e-9);
+  EXPECT_NEAR(around.Moved(from, step).At(from + step, -step), -around.At(from, step), 1e-9);
+}
+
+// From the light's own place ways lead to all sides alike.
+TEST(Deepening, AtTheLight)
+{
+  const Medium smoke = Layer();
+  const Vec3 centre(0.525, 0.525, 0.575);
+  const LightGroup light = LightAt(centre);
+  const Deepening around = LightWays(smoke, 1.0, light).DeepeningOf(smoke.Locate(centre));
+  const Vec3 step(0.0, 0.01, 0.02);
+  EXPECT_EQ(around.Slope, Vec3(0.0));
+  EXPECT_NEAR(around.At(Vec3(0.0), step), Extinction * glm::length(step), 1e-9);
+  EXPECT_NEAR(around.Moved(Vec3(0.0), step).At(step, -step), -around.At(Vec3(0.0), step), 1e-9);
+}
+
+// Beside the smoke's edge, which the light shines along, ways are as deep as farther inside.
+TEST(Deepening, BesideALateralBorder)
+{
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
+  {
+    grid.Extinction[cell] = cell % 40 < 20 ? Extinction : 0.0F;
+  }
+  const Medium smoke({grid});
+  const LightGroup light = LightAt({0.4, 0.5, 3.0});
+  const LightWays ways(smoke, 1.0, light);
+  const Vec3 inside(0.925, 0.525, 0.225);
+  const Vec3 beside(0.975, 0.525, 0.225);
+  const double far = ways.DeepeningOf(smoke.Locate(inside)).Slope.x;
+  const double near = ways.DeepeningOf(smoke.Locate(beside)).Slope.x;
+  EXPECT_GT(far, 0.0);
+  EXPECT_GE(near, 0.0);
+  EXPECT_LE(near, 2.0 * far);
+}
+
+} // namespace
