@@ -151,7 +151,7 @@ std::vector<Spectrum> NearDeposit::Run() const
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         means[this->Order_[i]][band] +=
-          part[this->Order_[i]][band] / this->Scene_.Smoke().CellVolume(this->Cells_[i]);
+          part[this->Order_[i]][band] / this->Scene_.Smoke().OwnVolume(this->Cells_[i]);
       }
     }
   }

@@ -63,7 +63,7 @@ NearLights::NearLights(const Scene& scene)
         light.Close = distance < CloseEdges * edge;
         light.Touches = distance < TouchEdges * edge &&
                         smoke.Extinction(cell.Index) * scene.LargestScale() * edge > DepositDepth &&
-                        !smoke.Covered(cell.Index);
+                        smoke.OwnVolume(cell.Index) > 0.0;
         cell.Close = cell.Close || light.Close;
       }
     });

@@ -117,4 +117,23 @@ TEST(MeshSplit, FinerMeshOverCoarse)
   }
 }
 
+// A lamp in what a finer mesh leaves of a coarse cell: that much smoke takes up all of its light.
+TEST(MeshSplit, LampInACellPartlyUnderAFinerMesh)
+{
+  report::Head("Direct light taken up where a finer mesh begins in the middle of cells [lm]");
+  for (const double extinction : {0.2, 2.0, 2000.0})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.0;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4.0), {4, 4, 4}, extinction),
+      scenes::UniformSmoke(Vec3(0.0), Vec3(1.5), {12, 12, 12}, extinction)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4.0), 0.5, 0.0);
+    scene.Emitters = {scenes::Plate({1.9, 1.25, 1.3}, {-1, 0, 0}, {0, 0, 1}, 0.2, 0.2, 100.0)};
+    const Solved solved(scene);
+    report::Relative("extinction " + std::to_string(extinction).substr(0, 6),
+      solved.TheScene->Lights().Flux(0),
+      solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean, 0.01);
+  }
+}
+
 } // namespace
