@@ -21,11 +21,11 @@ constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
 /// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
 constexpr double ThinShare = 0.25;
-/// Hits that sides need in a thin sweep, over the square of their reflectance: of the variance that
-/// a sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
+/// Hits that sides need in a sweep, over the square of their reflectance: of the variance that a
+/// sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
 constexpr double HitsASquare = 2.0;
-/// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
-constexpr float HitsForWholeStep = 0.25F;
+/// Hits that dark ones need to send on all of what a sweep found.
+constexpr double FewestHits = 0.25;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
@@ -108,6 +108,12 @@ double LineSweep::HitsShare() const
     }
   }
   return weights > 0.0 ? sum / weights : 0.0;
+}
+
+float LineSweep::HitsForWholeStep(std::size_t side) const
+{
+  const double reflectance = this->Scene_.PatchReflectance(side / 2)[this->Band_];
+  return static_cast<float>(std::max(FewestHits, HitsASquare * reflectance * reflectance));
 }
 
 void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
@@ -250,8 +256,8 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     }
     // What few lines meet sends on a mean of sweeps: a light that is large as rarely as it is found
     // would come back larger.
-    const float share =
-      std::clamp(this->ShareOf(thin) * this->SideHits_[side] / HitsForWholeStep, least, 1.0F);
+    const float share = std::clamp(
+      this->ShareOf(thin) * this->SideHits_[side] / this->HitsForWholeStep(side), least, 1.0F);
     state.Illuminance[side] += share * (estimate - state.Illuminance[side]);
     state.IlluminanceSum[side] += estimate;
   }

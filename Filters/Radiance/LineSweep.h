@@ -77,6 +77,8 @@ public:
   const ThickCells& Thick() const { return this->Thick_; }
   /// Blocks that complete what whole sweeps find; none where little is scattered often.
   const std::optional<DiffusionBlocks>& Blocks() const { return this->Blocks_; }
+  /// Does without them from now on.
+  void LeaveOutBlocks() { this->Blocks_.reset(); }
   /// Share of what a whole sweep would change of the light that it does change (CellSteps).
   double MeanStep() const { return this->Steps_.MeanStep(); }
   /// Those of a thin sweep.
@@ -100,6 +102,8 @@ private:
     LineBuffers& buffers) const;
   /// Share of a whole sweep's lines that surfaces need for noise not to grow, in the mean.
   double HitsShare() const;
+  /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
+  float HitsForWholeStep(std::size_t side) const;
   /// Share of a whole sweep's lines that a sweep has.
   float ShareOf(bool thin) const
   {

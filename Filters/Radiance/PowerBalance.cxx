@@ -173,8 +173,8 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
     scales.Own[batch] = this->ScaleFor(losses[batch]);
     scaled[batch] = plain[batch] * scales.Own[batch];
   }
-  scales.Common = this->ScaleFor(Mean(losses));
   scales.CommonError = RelativeError(losses);
+  scales.Common = scales.CommonError < 1.0 ? this->ScaleFor(Mean(losses)) : 1.0;
   scales.Spread = RelativeError(plain);
   scales.OwnSpread = RelativeError(scaled);
   return scales;
@@ -182,7 +182,8 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
 
 double PowerBalance::ScaleFor(double loss) const
 {
-  return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : LargestScale;
+  // That less than nothing is lost is noise, which must not grow.
+  return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : 1.0;
 }
 
 double PowerBalance::SentAgain(const std::vector<Powers>& powers, double Powers::*by) const
