@@ -105,7 +105,7 @@ std::vector<double> ThickCells::Escapes(const Scene& scene, const std::vector<fl
           });
       }
     });
-  std::vector<double> escapes(cells, 1.0);
+  std::vector<double> escapes(cells, 0.0);
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
     double length = 0.0;
@@ -115,7 +115,7 @@ std::vector<double> ThickCells::Escapes(const Scene& scene, const std::vector<fl
       length += lengths[sweep][cell];
       escape += escaped[sweep][cell];
     }
-    escapes[cell] = length > 0.0 ? escape / length : 1.0;
+    escapes[cell] = length > 0.0 ? escape / length : 0.0;
   }
   return escapes;
 }

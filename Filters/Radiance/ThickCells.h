@@ -45,7 +45,7 @@ public:
 
 private:
   /// Share of what is scattered in each cell that leaves it or meets a surface before it is
-  /// scattered there again, 1 where lines tell nothing.
+  /// scattered there again, 0 where lines tell nothing.
   static std::vector<double> Escapes(const Scene& scene, const std::vector<float>& extinction,
     const GlobalLines& lines, const Progress& progress);
 
