@@ -53,6 +53,8 @@ public:
   int Counted() const { return this->States_.front().Counted; }
   /// What completes them where smoke scatters often; else none.
   const std::optional<Completion>& Diffusion() const { return this->Completion_; }
+  /// Whether that leads nowhere.
+  bool Diverges() const { return this->Completion_ && this->Completion_->Diverges(); }
   /// Lines that were traced for each batch.
   std::size_t LinesABatch() const { return this->LinesABatch_; }
 

@@ -27,6 +27,9 @@ public:
 
   /// What the latest light may still lack, over the mean fluence of the smoke.
   double MayLack() const { return this->MayLack_; }
+  /// Whether what is completed comes back with the other sign again and again: diffusion does not
+  /// describe this light, and completes it ever further away.
+  bool Diverges() const { return this->Step_ < SmallestStep; }
   /// Share of what light lacks that it still lacks a sweep later. In uniform smoke it would be 0.23
   /// (Adams and Larsen 2002).
   double Left() const { return 1.0 - this->Step_ * (1.0 - LeftShare); }
@@ -34,6 +37,7 @@ public:
 private:
   /// Share that is left where all is completed that is found.
   static constexpr double LeftShare = 0.6;
+  static constexpr double SmallestStep = 0.1;
 
   const DiffusionBlocks& Blocks_;
   /// Sweeps that the batches' Lacking adds up.

@@ -229,11 +229,25 @@ void MultipleSolve::Band(int band)
   }
   const double part = (1.0 - this->From_) / this->Field_.Bands;
   const double from = this->From_ + part * band;
-  BatchSweeps sweeps(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
-    this->Team_, this->Arena_, this->Progress_, {from, from + SweepShare * part});
-  Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
-    this->Arena_, sweeps)
-    .Run();
+  std::optional<BatchSweeps> drawn;
+  const auto settle = [&]
+  {
+    drawn.emplace(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
+      this->Team_, this->Arena_, this->Progress_,
+      BatchSweeps::ProgressSpan{from, from + SweepShare * part});
+    Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
+      this->Arena_, *drawn)
+      .Run();
+  };
+  settle();
+  if (drawn->Diverges())
+  {
+    this->Say(name + "sweeps given up", drawn->Done(),
+      "diffusion does not complete this light: sweeps alone build it up");
+    sweep->LeaveOutBlocks();
+    settle();
+  }
+  BatchSweeps& sweeps = *drawn;
   const int settling = sweeps.Done() - sweeps.Counted();
   this->Refine(sweeps, probes);
   if (!(probes.WholeError(sweeps.States()) <= LargestError))

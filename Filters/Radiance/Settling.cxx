@@ -82,6 +82,10 @@ void Settling::BuildUp()
     // The first sweeps differ much: each is balanced by its own loss.
     this->Sweeps_.Restart();
     this->Sweeps_.Draw(1, !this->Sweeps_.Diffusion());
+    if (this->Sweeps_.Diverges())
+    {
+      return;
+    }
     const std::vector<BatchState>& states = this->Sweeps_.States();
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
     const double sent = this->SentOf(powers);
@@ -111,7 +115,7 @@ void Settling::Complete()
 {
   for (int window = 1;
        this->Sweeps_.Diffusion() && this->Sweeps_.Diffusion()->MayLack() > this->Limit_ &&
-       this->Sweeps_.Done() + window <= CompletedSweeps;
+       !this->Sweeps_.Diverges() && this->Sweeps_.Done() + window <= CompletedSweeps;
        window *= 2)
   {
     this->Sweeps_.Draw(window);
@@ -162,6 +166,10 @@ void Settling::Run()
   {
     std::vector<BatchState>& states = this->Sweeps_.States();
     this->Sweeps_.Draw(window.Sweeps);
+    if (this->Sweeps_.Diverges())
+    {
+      return;
+    }
     this->Sweeps_.Follow();
     BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);

@@ -29,7 +29,8 @@ public:
     const PowerBalance& balance, const VeilProbes& probes, tbb::task_arena& arena,
     BatchSweeps& sweeps);
 
-  /// Leaves sums in the batches that all count. Throws Error where light never settles.
+  /// Leaves sums in the batches that all count, unless what completes them diverges. Throws Error
+  /// where light never settles.
   void Run();
 
   /// Sweeps that may be drawn in all, for whatever reason.
