@@ -180,7 +180,8 @@ private:
   /// @param whole whether ways are walked where they are not told; else there are none then
   std::optional<BlockWays> WaysFrom(const LightGroup& root, const Medium::Block& block, bool whole,
     const std::vector<Spectrum>& sums) const;
-  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int splits,
+  /// @param level how often it was split from a whole triangle
+  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,
     double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;

@@ -11,10 +11,15 @@ namespace smokevis
 namespace
 {
 
-/// A triangle as large as this share of its distance to the light is split.
+/// A triangle as large as this share of its distance to the light is split, as often as it takes;
+/// right before a plate light changes over some share of the plate's size. Below the smaller share
+/// one point does.
 constexpr double TriangleRatio = 0.5;
+constexpr double PlateShare = 0.25;
 constexpr double TrianglePointRatio = 0.1;
-constexpr int TriangleSplits = 4;
+constexpr int MostSplits = 14;
+/// How often one is split, in all, that the edge of a shadow runs through.
+constexpr int ShadowSplits = 4;
 
 } // namespace
 
@@ -22,12 +27,12 @@ std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   std::size_t light, const Triangle& corners, const Vec3& normal) const
 {
   std::array<Spectrum, 2> sum{};
-  this->AddTriangle(light, corners, normal, TriangleSplits, 1.0, sum);
+  this->AddTriangle(light, corners, normal, 0, 1.0, sum);
   return sum;
 }
 
 void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal,
-  int splits, double weight, std::array<Spectrum, 2>& sum) const
+  int level, double weight, std::array<Spectrum, 2>& sum) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 centre = CentreOf(corners);
@@ -47,12 +52,12 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0])};
     const double quarter = 0.25 * weight;
-    this->AddTriangle(light, {corners[0], middle[0], middle[2]}, normal, splits - 1, quarter, sum);
-    this->AddTriangle(light, {middle[0], corners[1], middle[1]}, normal, splits - 1, quarter, sum);
-    this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, splits - 1, quarter, sum);
-    this->AddTriangle(light, middle, normal, splits - 1, quarter, sum);
+    this->AddTriangle(light, {corners[0], middle[0], middle[2]}, normal, level + 1, quarter, sum);
+    this->AddTriangle(light, {middle[0], corners[1], middle[1]}, normal, level + 1, quarter, sum);
+    this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, level + 1, quarter, sum);
+    this->AddTriangle(light, middle, normal, level + 1, quarter, sum);
   };
-  if (splits > 0 && size > TriangleRatio * distance)
+  if (level < MostSplits && size > TriangleRatio * std::max(distance, PlateShare * root.Radius))
   {
     splitAll();
     return;
@@ -80,7 +85,7 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
       return;
     }
     clear = least == 1.0;
-    if (!clear && splits > 0)
+    if (!clear && level < ShadowSplits)
     {
       // The edge of a shadow runs through the triangle.
       splitAll();

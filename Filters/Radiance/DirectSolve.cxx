@@ -182,10 +182,12 @@ void DirectSolve::Patches()
     [&](std::size_t patch)
     {
       std::array<Spectrum, 2> sum{};
+      double area = 0.0;
       for (const Triangle& corners : patches[patch])
       {
         const Vec3 normal = glm::normalize(AreaVector(corners));
-        const double share = AreaOf(corners) / this->Scene_.PatchArea(patch);
+        const double own = AreaOf(corners);
+        area += own;
         for (std::size_t light = 0; light < lights; ++light)
         {
           const auto value = direct.TriangleIlluminance(light, corners, normal);
@@ -193,7 +195,7 @@ void DirectSolve::Patches()
           {
             for (int band = 0; band < this->Field_.Bands; ++band)
             {
-              sum[side][band] += share * value[side][band];
+              sum[side][band] += own * value[side][band];
             }
           }
         }
@@ -201,10 +203,9 @@ void DirectSolve::Patches()
       for (int side = 0; side < 2; ++side)
       {
         // The mean over what is not dark, if anything is.
-        const double area = this->Scene_.PatchArea(patch);
         const double dark = this->Scene_.EnclosedArea(patch, side);
         const bool covered = dark > 0.0 && this->Scene_.ExposedArea(patch, side) == 0.0;
-        const double scale = covered || !(area > 0.0) ? 0.0 : area / (area - dark);
+        const double scale = covered || !(area > dark) ? 0.0 : 1.0 / (area - dark);
         for (int band = 0; band < this->Field_.Bands; ++band)
         {
           illuminance(band, patch, side) = static_cast<float>(scale * sum[side][band]);

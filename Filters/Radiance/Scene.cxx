@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 namespace smokevis
@@ -192,10 +193,17 @@ const OpenFaces& Scene::Open() const
 std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 {
   std::vector<std::vector<Triangle>> patches(scene.Patches());
+  std::vector<std::set<std::array<std::array<double, 3>, 3>>> known(scene.Patches());
   scene.ForEachTriangle(
-    [&patches](std::size_t patch, const Triangle& corners)
+    [&](std::size_t patch, const Triangle& corners)
     {
-      if (AreaOf(corners) > 0.0)
+      std::array<std::array<double, 3>, 3> sorted;
+      std::transform(corners.begin(), corners.end(), sorted.begin(),
+        [](const Vec3& corner) {
+          return std::array{corner.x, corner.y, corner.z};
+        });
+      std::sort(sorted.begin(), sorted.end());
+      if (AreaOf(corners) > 0.0 && known[patch].insert(sorted).second)
       {
         patches[patch].push_back(corners);
       }

@@ -137,7 +137,7 @@ private:
   Vec3 Upper_{0.0};
 };
 
-/// Triangles of each patch that have an area.
+/// Triangles of each patch that have an area, without those that repeat another of the patch.
 std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene);
 
 template <class Visit> void Scene::ForEachTriangle(Visit&& visit) const

@@ -192,6 +192,38 @@ TEST(Balance, ThickCellsBehindClearAir)
   }
 }
 
+// A lamp right before a wall whose patches are many times as wide as it is far lights little of
+// them, and all of its light arrives. Triangles that repeat others of a patch change nothing.
+TEST(Balance, LampRightBeforeALargePatch)
+{
+  report::Head("Direct light of lamps in a black room of few triangles [lm]");
+  for (const double distance : {0.1, 0.01})
+  {
+    for (const double exponent : {0.0, 20.0})
+    {
+      for (const bool repeated : {false, true})
+      {
+        SceneDescription scene;
+        scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4, 3, 2.5), 4.0, 0.0);
+        if (repeated)
+        {
+          const std::size_t floor = 8;
+          scene.Surfaces.Triangles.push_back(scene.Surfaces.Triangles[floor]);
+          scene.Surfaces.TriangleCell.push_back(scene.Surfaces.TriangleCell[floor]);
+        }
+        scene.Emitters = {
+          scenes::Plate({1.3, 1.1, distance}, {0, 0, -1}, {1, 0, 0}, 0.1, 0.1, 100.0)};
+        scene.Emitters[0].Exponent = exponent;
+        const Solved solved(scene);
+        report::Relative(std::to_string(distance).substr(0, 4) + " m, cos^" +
+                           std::to_string(static_cast<int>(exponent)) +
+                           (repeated ? ", a triangle twice" : ""),
+          solved.TheScene->Lights().Flux(0), solved.AbsorbedOnSurfaces().Mean, 0.01);
+      }
+    }
+  }
+}
+
 /// Power that a uniform cube of smoke takes up of a square lamp's light [lm]: the integral over the
 /// lamp and all directions, over each of which 1 - exp(-K s) is taken up on the chord s.
 double TakenByCube(const EmitterCell& lamp, double luminance, double extinction, const Box& cube)
