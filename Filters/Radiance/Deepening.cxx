@@ -30,6 +30,9 @@ struct SlopeBeside
   }
 };
 
+/// Smoke of less than this share of a cell's extinction counts as clear air beside it.
+constexpr double ClearShare = 0.25;
+
 /// None at the light's own place, which all ways lead away from.
 Vec3 DirectionOf(const Vec3& way)
 {
@@ -45,40 +48,38 @@ Deepening Deepening::Even(const CellWay& cell, const Vec3& light)
   return {mean, cell.Extinction * DirectionOf(cell.Centre - light)};
 }
 
-Deepening Deepening::Within(const CellWay& cell,
-  const std::array<std::array<const CellWay*, 2>, 3>& beside, const Vec3& light)
+Deepening Deepening::Within(
+  const CellWay& cell, const std::array<std::array<CellWay, 2>, 3>& beside, const Vec3& light)
 {
   Deepening result = Even(cell, light);
   for (int axis = 0; axis < 3; ++axis)
   {
     double& slope = result.Slope[axis];
-    const CellWay* low = beside[axis][0];
-    const CellWay* high = beside[axis][1];
-    if (!low || !high)
+    const int lit = cell.Centre[axis] > light[axis] ? 0 : 1;
+    const CellWay& before = beside[axis][lit];
+    result.Border =
+      std::max(result.Border, std::abs(cell.Extinction - before.Extinction) * cell.Size[axis]);
+    const SlopeBeside below(cell, beside[axis][0], axis, slope);
+    const SlopeBeside above(cell, beside[axis][1], axis, slope);
+    if (before.Extinction < ClearShare * cell.Extinction)
     {
-      const CellWay* one = low ? low : high;
-      slope = one ? SlopeBeside(cell, *one, axis, slope).Slope : slope;
-      continue;
+      result.Entry[axis] = std::abs(lit == 0 ? below.Slope : above.Slope);
     }
-    const SlopeBeside below(cell, *low, axis, slope);
-    const SlopeBeside above(cell, *high, axis, slope);
     const double change = (above.Slope - below.Slope) / (below.Place + above.Place);
     slope = below.Slope + change * below.Place;
     // Where the two differ much, one crosses a border that the cell lies beside.
     const double least = below.Slope * above.Slope > 0.0
                            ? std::min(std::abs(below.Slope), std::abs(above.Slope))
                            : 0.0;
-    if (std::abs(slope) > 2.0 * least)
-    {
-      slope = std::copysign(2.0 * least, slope);
-      continue;
-    }
+    const double share =
+      least > 0.0 ? std::clamp(2.0 * (2.0 - std::abs(slope) / least), 0.0, 1.0) : 0.0;
+    slope = std::copysign(std::min(std::abs(slope), 2.0 * least), slope);
     // No bend turns the slope within the cell.
     const double along = (cell.Centre[axis] - light[axis]) / cell.Distance;
     const double most = 2.0 * std::abs(slope) / cell.Size[axis];
-    result.Bend[axis] =
-      std::clamp(change + (cell.Extinction - result.Mean) * (1.0 - along * along) / cell.Distance,
-        -most, most);
+    const double bend =
+      change + (cell.Extinction - result.Mean) * (1.0 - along * along) / cell.Distance;
+    result.Bend[axis] = share * std::clamp(bend, -most, most);
   }
   return result;
 }

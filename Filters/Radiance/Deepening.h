@@ -9,9 +9,9 @@ namespace smokevis
 /// The straight way from the centre of a smoke cell to a light.
 struct CellWay
 {
-  Vec3 Centre;
+  Vec3 Centre{0.0};
   /// The cell's edges [m].
-  Vec3 Size;
+  Vec3 Size{0.0};
   /// The cell's own at 633 nm [1/m].
   double Extinction = 0.0;
   /// Length of the way [m].
@@ -30,6 +30,12 @@ struct Deepening
   Vec3 Slope{0.0};
   /// Its second derivatives along the axes, without those of the distance [1/m2].
   Vec3 Bend{0.0};
+  /// Sizes of its derivatives in the half of a cell that light comes into from clear air; those
+  /// above hold no more than is found in the other half, too [1/m]. 0 across other faces.
+  Vec3 Entry{0.0};
+  /// By how much the depth along an edge of a cell differs at most from that in the smoke that
+  /// light comes from; 0 where smoke is even.
+  double Border = 0.0;
 
   /// Where the smoke is even.
   /// @param light where the ways lead to
@@ -37,10 +43,10 @@ struct Deepening
   /// By the ways from the cells around a cell: in even smoke the depth goes with the distance; what
   /// it differs by goes with the cell's own smoke, as in layers: behind the border of clear air it
   /// rises the faster the more aslant light comes in.
-  /// @param beside from the cells on the low and the high side along each axis; may be null
+  /// @param beside from the cells on the low and the high side along each axis
   /// @param light where the ways lead to
-  static Deepening Within(const CellWay& cell,
-    const std::array<std::array<const CellWay*, 2>, 3>& beside, const Vec3& light);
+  static Deepening Within(
+    const CellWay& cell, const std::array<std::array<CellWay, 2>, 3>& beside, const Vec3& light);
 
   /// Of the ways around a place `step` further.
   /// @param from the light's place to this one

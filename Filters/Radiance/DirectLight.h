@@ -154,11 +154,12 @@ private:
   double BoxDepth(std::int64_t cell, const Vec3& size) const;
   /// By how much the way to a light deepens along an edge of a box, at most.
   double SteepestDepth(const BoxLight& light, const Vec3& size) const;
-  /// Whether the smoke that light comes from is about as dense as that of a cell: ways to places
-  /// beside its centre differ by that smoke, then.
-  /// @param from the light's place to the cell
-  bool EvenTowards(std::int64_t cell, const Vec3& from) const;
+  /// Whether light comes to the box's cell from smoke of another density: ways to places in the box
+  /// do not follow one another, then.
+  bool BehindBorder(const BoxLight& light) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
+  /// Of boxes that light hardly gets into.
+  Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Ways from the cells of a block to a light that is far from it.
   struct BlockWays
   {
@@ -169,6 +170,8 @@ private:
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.
     double Share = 0.0;
+    /// Whether what is told may be off by more than differences from cell to cell would bear.
+    bool Rough = false;
   };
   /// That bound.
   /// @param extinction smallest mean along the ways [1/m]

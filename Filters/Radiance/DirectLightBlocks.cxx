@@ -200,6 +200,7 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& ro
         odd = true;
       }
     });
+  ways.Rough = ways.Told > 0 && allowed > WayTolerance;
   if (odd)
   {
     ways.Share = this->LargestShare(root, block,
@@ -250,7 +251,8 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   const bool weak = ways && ways->Share < WeakShare;
   const std::vector<Deepening> deepening =
     LightWays(smoke, this->Scene_.LargestScale(), root)
-      .DeepeningIn(block, ways ? ways->Extinction : std::vector<double>(), weak);
+      .DeepeningIn(
+        block, ways ? ways->Extinction : std::vector<double>(), weak || (ways && ways->Rough));
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {

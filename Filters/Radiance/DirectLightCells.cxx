@@ -28,6 +28,8 @@ constexpr double FlatDepth = 0.25 * Aside;
 constexpr double FlatRatio = 0.2 * Aside;
 constexpr double TwoPointDepth = 1.2 * Aside;
 constexpr double DeepestGauss = 4.0 * Aside;
+/// Slabs that such a box is cut into, at most.
+constexpr int MostSlabs = 24;
 /// Share of a light's intensity towards any place in a box that there is towards its centre, where
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
@@ -44,20 +46,25 @@ struct GaussPlace
   double Weight;
 };
 
-/// Gauss places in a box, so many along each edge (2 or 3).
-std::vector<GaussPlace> GaussPlaces(const Vec3& centre, const Vec3& size, int order)
+/// Gauss places in a box, so many along each edge (1 to 3).
+std::vector<GaussPlace> GaussPlaces(
+  const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders)
 {
+  constexpr std::array<std::array<double, 3>, 3> nodes = {
+    {{0.5}, {Nodes2[0], Nodes2[1]}, {Nodes3[0], Nodes3[1], Nodes3[2]}}};
+  constexpr std::array<std::array<double, 3>, 3> weights = {
+    {{1.0}, {0.5, 0.5}, {Weights3[0], Weights3[1], Weights3[2]}}};
   std::vector<GaussPlace> places;
-  places.reserve(static_cast<std::size_t>(order) * order * order);
-  ForEachPlace({order, order, order},
+  places.reserve(static_cast<std::size_t>(orders[0]) * orders[1] * orders[2]);
+  ForEachPlace(orders,
     [&](const std::array<int, 3>& index)
     {
       double weight = 1.0;
       Vec3 share;
       for (int axis = 0; axis < 3; ++axis)
       {
-        share[axis] = order == 2 ? Nodes2[index[axis]] : Nodes3[index[axis]];
-        weight *= order == 2 ? 0.5 : Weights3[index[axis]];
+        share[axis] = nodes[orders[axis] - 1][index[axis]];
+        weight *= weights[orders[axis] - 1][index[axis]];
       }
       places.push_back({centre + (share - 0.5) * size, weight});
     });
@@ -133,8 +140,7 @@ Spectrum DirectLight::NearCellFluence(
   BoxLight box{
     light, cell, clear, LightWays(smoke, this->Scene_.LargestScale(), root).DeepeningOf(cell)};
   // In the thickest cells light does not follow what is interpolated, nor behind a border of smoke.
-  if (clear && this->BoxDepth(cell, size) < DeepestGauss &&
-      this->EvenTowards(cell, centre - root.Centre))
+  if (clear && this->BoxDepth(cell, size) < DeepestGauss && !this->BehindBorder(box))
   {
     box.Near = kept;
   }
@@ -292,10 +298,20 @@ Spectrum DirectLight::BoxFluence(
     return {};
   }
   const double depth = this->BoxDepth(light.Cell, size);
-  const bool deepest = this->SteepestDepth(light, size) >= DeepestGauss;
-  if (!close && !light.Weak && !deepest && (depth > FlatDepth || edge > FlatRatio * distance))
+  const Vec3 within = glm::abs(light.Ways.Slope) * size * this->Scene_.LargestScale();
+  const Vec3 entering = light.Ways.Entry * size * this->Scene_.LargestScale();
+  const bool deepest = LargestEdge(within) >= DeepestGauss;
+  if (!close && !light.Weak)
   {
-    return this->GaussFluence(light, centre, size);
+    if (std::max(depth, LargestEdge(entering)) >=
+        (depth > FlatDepth ? DeepestGauss : TwoPointDepth))
+    {
+      return this->GradedFluence(light, centre, size);
+    }
+    if (!deepest && (depth > FlatDepth || edge > FlatRatio * distance))
+    {
+      return this->GaussFluence(light, centre, size);
+    }
   }
   // Mean over the box. Along a slope of the optical depth its exponential is exact; its mean lies
   // at a place of its own, where the rest of the light's variation is taken.
@@ -307,7 +323,7 @@ Spectrum DirectLight::BoxFluence(
       0.5 * extent[axis] *
       Langevin(0.5 * this->Scene_.ExtinctionScale(0) * light.Ways.Slope[axis] * extent[axis]);
   }
-  // To the deepest boxes light comes by ways beside that to the centre.
+  // What deepens so fast is not told that far from the centre.
   Spectrum value = this->Fluence(light, place,
     deepest && !light.Weak ? std::nullopt : this->ExtinctionFrom(light, centre, place));
   double curvature = 1.0;
@@ -333,9 +349,13 @@ Spectrum DirectLight::BoxFluence(
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = 0.5 * light.Ways.Slope[axis] * extent[axis];
-      factor *= MeanAttenuation(scale * half, Langevin(this->Scene_.ExtinctionScale(0) * half));
-      factor *= std::exp(-0.125 * scale * light.Ways.Bend[axis] * extent[axis] * extent[axis] *
-                         LangevinSlope(scale * half));
+      const double shift = Langevin(this->Scene_.ExtinctionScale(0) * half);
+      const double own = Langevin(scale * half);
+      factor *= MeanAttenuation(scale * half, shift);
+      // Mean square of the distance from the centre, over that of the place.
+      const double spread = LangevinSlope(scale * half) + own * own - shift * shift;
+      factor *=
+        std::exp(-0.125 * scale * light.Ways.Bend[axis] * extent[axis] * extent[axis] * spread);
     }
     value[band] *= factor;
   }
@@ -363,24 +383,66 @@ double DirectLight::BoxDepth(std::int64_t cell, const Vec3& size) const
 
 double DirectLight::SteepestDepth(const BoxLight& light, const Vec3& size) const
 {
-  return std::max(this->BoxDepth(light.Cell, size),
-    LargestEdge(glm::abs(light.Ways.Slope) * size) * this->Scene_.LargestScale());
+  const Vec3 slope = glm::max(glm::abs(light.Ways.Slope), light.Ways.Entry);
+  return std::max(
+    this->BoxDepth(light.Cell, size), LargestEdge(slope * size) * this->Scene_.LargestScale());
 }
 
-bool DirectLight::EvenTowards(std::int64_t cell, const Vec3& from) const
+Spectrum DirectLight::GradedFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
-  const Medium& smoke = this->Scene_.Smoke();
-  const Vec3 size = smoke.CellSize(cell);
+  // Slabs from the faces that light comes in through, each half as thick as the one behind it,
+  // until the first is thin; without such faces across the axis along which ways deepen most.
+  const double scale = this->Scene_.LargestScale();
+  const Vec3 from = centre - this->Scene_.Lights().Root(light.Index).Centre;
+  const Vec3 within = glm::abs(light.Ways.Slope) * size * scale;
+  const Vec3 entering = light.Ways.Entry * size * scale;
+  const bool enters = LargestEdge(entering) >= TwoPointDepth;
+  std::array<int, 3> slabs;
+  std::array<int, 3> orders;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::int64_t other = smoke.Neighbour(cell, axis, from[axis] > 0.0 ? 0 : 1);
-    const double step = smoke.Extinction(cell) - (other < 0 ? 0.0F : smoke.Extinction(other));
-    if (std::abs(step) * this->Scene_.LargestScale() * size[axis] >= FlatDepth)
-    {
-      return false;
-    }
+    const double depth = std::max(within[axis], entering[axis]);
+    const bool graded =
+      enters ? entering[axis] >= TwoPointDepth : within[axis] == LargestEdge(within);
+    const double thickest = std::max(depth, this->BoxDepth(light.Cell, size));
+    slabs[axis] =
+      graded ? std::min(MostSlabs, 2 + static_cast<int>(std::log2(std::max(1.0, thickest)))) : 1;
+    // Along the others one place does for light that hardly changes.
+    const bool flat = depth < 2.0 * FlatDepth && size[axis] < FlatRatio * glm::length(from);
+    orders[axis] = !graded && flat ? 1 : 2;
   }
-  return true;
+  Spectrum sum{};
+  ForEachPlace(slabs,
+    [&](const std::array<int, 3>& slab)
+    {
+      Vec3 middle = centre;
+      Vec3 extent = size;
+      double share = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double end = std::ldexp(1.0, slab[axis] - slabs[axis] + 1);
+        const double begin = slab[axis] == 0 ? 0.0 : 0.5 * end;
+        const double inwards = from[axis] >= 0.0 ? 1.0 : -1.0;
+        middle[axis] += inwards * (0.5 * (begin + end) - 0.5) * size[axis];
+        extent[axis] *= end - begin;
+        share *= end - begin;
+      }
+      for (const GaussPlace& place : GaussPlaces(middle, extent, orders))
+      {
+        const Spectrum value = this->Fluence(light, place.Point, std::nullopt);
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          sum[band] += share * place.Weight * value[band];
+        }
+      }
+    });
+  return sum;
+}
+
+bool DirectLight::BehindBorder(const BoxLight& light) const
+{
+  return light.Ways.Border * this->Scene_.LargestScale() >= FlatDepth;
 }
 
 Spectrum DirectLight::GaussFluence(
@@ -389,10 +451,10 @@ Spectrum DirectLight::GaussFluence(
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
-  const std::vector<GaussPlace> places =
-    GaussPlaces(centre, size, this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3);
+  const int order = this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
+  const std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
   Spectrum sum{};
-  const bool even = this->EvenTowards(light.Cell, from);
+  const bool even = !this->BehindBorder(light);
   if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
   {
     for (const GaussPlace& place : places)

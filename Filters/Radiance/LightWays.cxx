@@ -33,6 +33,23 @@ CellWay LightWays::From(std::int64_t cell, const std::optional<double>& extincti
   return way;
 }
 
+CellWay LightWays::FromBeside(std::int64_t cell, const CellWay& way, int axis, int side) const
+{
+  if (const std::int64_t other = this->Smoke_.Neighbour(cell, axis, side); other >= 0)
+  {
+    return this->From(other);
+  }
+  // Outside of all meshes there is clear air.
+  CellWay outside{way.Centre, way.Size};
+  outside.Centre[axis] += (side == 0 ? -1.0 : 1.0) * way.Size[axis];
+  const Vec3 to = this->Light_.Centre - outside.Centre;
+  outside.Distance = glm::length(to);
+  outside.Depth = outside.Distance > 0.0 ? this->Smoke_.OpticalDepth(outside.Centre,
+                                             to / outside.Distance, 0.0, outside.Distance)
+                                         : 0.0;
+  return outside;
+}
+
 bool LightWays::Even(const CellWay& way) const
 {
   return std::abs(way.Depth - way.Extinction * way.Distance) * LargestEdge(way.Size) *
@@ -47,19 +64,13 @@ Deepening LightWays::Around(std::int64_t cell, const CellWay& way, Beside&& besi
   {
     return Deepening::Even(way, this->Light_.Centre);
   }
-  std::array<std::array<std::optional<CellWay>, 2>, 3> further;
-  std::array<std::array<const CellWay*, 2>, 3> ways{};
+  std::array<std::array<CellWay, 2>, 3> ways;
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int side = 0; side < 2; ++side)
     {
-      const CellWay*& own = ways[axis][side];
-      own = beside(axis, side);
-      if (const std::int64_t other = own ? -1 : this->Smoke_.Neighbour(cell, axis, side);
-          other >= 0)
-      {
-        own = &further[axis][side].emplace(this->From(other));
-      }
+      const CellWay* const known = beside(axis, side);
+      ways[axis][side] = known ? *known : this->FromBeside(cell, way, axis, side);
     }
   }
   return Deepening::Within(way, ways, this->Light_.Centre);

@@ -34,6 +34,8 @@ public:
 private:
   /// @param extinction mean along the way, if known [1/m]
   CellWay From(std::int64_t cell, const std::optional<double>& extinction = {}) const;
+  /// From the cell across a face of a cell, or from as far in the clear air there.
+  CellWay FromBeside(std::int64_t cell, const CellWay& way, int axis, int side) const;
   /// Whether a way leads through smoke like that of its cell.
   bool Even(const CellWay& way) const;
   /// @param beside(axis, side) the way from the cell there if that is known already, else null
