@@ -303,12 +303,14 @@ Spectrum DirectLight::BoxFluence(
   const bool deepest = LargestEdge(within) >= DeepestGauss;
   if (!close && !light.Weak)
   {
-    if (std::max(depth, LargestEdge(entering)) >=
-        (depth > FlatDepth ? DeepestGauss : TwoPointDepth))
+    const bool thick =
+      std::max(depth, LargestEdge(entering)) >= (depth > FlatDepth ? DeepestGauss : TwoPointDepth);
+    // Of a cell that a finer mesh covers in part the faces tell little of where light comes in.
+    if (thick && !this->Scene_.Smoke().Covered(light.Cell))
     {
       return this->GradedFluence(light, centre, size);
     }
-    if (!deepest && (depth > FlatDepth || edge > FlatRatio * distance))
+    if (!deepest && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
     {
       return this->GaussFluence(light, centre, size);
     }
