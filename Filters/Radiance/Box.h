@@ -39,7 +39,21 @@ struct Box
     return {Vec3(infinity), Vec3(-infinity)};
   }
 
-  double Surface() const { return BoxSurface(this->Upper - this->Lower); }
+  Vec3 Centre() const { return 0.5 * (this->Lower + this->Upper); }
+  Vec3 Size() const { return this->Upper - this->Lower; }
+  double Surface() const { return BoxSurface(this->Size()); }
+  double Volume() const
+  {
+    const Vec3 size = this->Size();
+    return size.x * size.y * size.z;
+  }
+
+  /// Whether it shares a volume with another.
+  bool Meets(const Box& other) const
+  {
+    return glm::all(glm::lessThan(this->Lower, other.Upper)) &&
+           glm::all(glm::lessThan(other.Lower, this->Upper));
+  }
 
   bool Contains(const Vec3& point) const
   {

@@ -26,6 +26,8 @@ struct CellPart
   std::int64_t Cell = 0;
   std::int64_t Number = 0;
   double Volume = 0.0;
+  /// Without what finer grids lie over.
+  double OwnVolume = 0.0;
   /// Centre of mass.
   Vec3 Centre{0.0};
   /// Edges of a box that is as far spread along each axis.

@@ -29,6 +29,8 @@ constexpr int MostPlanes = 6;
 constexpr std::size_t MostCandidates = 16;
 /// Light passes between two pieces of a cell where more than half of so many ways are clear.
 constexpr int Ways = 6;
+/// A smaller share of a part than this is none.
+constexpr double Rounding = 1e-6;
 /// Samples of a smaller share of a part are left out.
 constexpr double LeastShare = 0.005;
 
@@ -47,6 +49,10 @@ public:
     this->Flat_ = FlatShare * std::min({size.x, size.y, size.z});
     this->LeastArea_ = LeastArea * std::pow(this->Volume_, 2.0 / 3.0);
     this->Cut_.Cell = cell;
+    for (const Box& own : scene.Smoke().OwnBoxes(cell))
+    {
+      this->Own_.push_back({own.Lower - this->Base_, own.Upper - this->Base_});
+    }
   }
 
   void AddWall(const Triangle& corners)
@@ -96,7 +102,7 @@ private:
   };
   struct Piece
   {
-    double Volume;
+    double Volume, OwnVolume;
     Vec3 Centre;
     std::vector<Sample> Samples;
     /// The place of the part that it belongs to.
@@ -180,9 +186,33 @@ private:
     return kept;
   }
 
+  /// Volume of what finer grids leave of a solid.
+  double OwnVolume(const ConvexSolid& solid) const
+  {
+    double volume = 0.0;
+    for (const Box& own : this->Own_)
+    {
+      ConvexSolid inside = solid;
+      for (int axis = 0; axis < 3 && !inside.Empty(); ++axis)
+      {
+        Plane end;
+        end.Normal[axis] = 1.0;
+        end.Offset = own.Lower[axis];
+        inside = inside.Cut(end).first;
+        if (!inside.Empty())
+        {
+          end.Offset = own.Upper[axis];
+          inside = inside.Cut(end).second;
+        }
+      }
+      volume += inside.Empty() ? 0.0 : inside.Volume();
+    }
+    return volume;
+  }
+
   void AddPiece(const ConvexSolid& solid)
   {
-    Piece piece{solid.Volume(), solid.Centre(), {}};
+    Piece piece{solid.Volume(), this->OwnVolume(solid), solid.Centre(), {}};
     const Box bounds = solid.Bounds();
     std::vector<ConvexSolid> eighths = {solid};
     for (int axis = 0; axis < 3; ++axis)
@@ -267,6 +297,7 @@ private:
       if (piece.Part == place)
       {
         part.Volume += piece.Volume;
+        part.OwnVolume += piece.OwnVolume;
         centre += piece.Volume * piece.Centre;
         for (const Sample& sample : piece.Samples)
         {
@@ -274,6 +305,9 @@ private:
         }
       }
     }
+    // What rounding leaves or takes is nothing.
+    const double own = part.OwnVolume / part.Volume;
+    part.OwnVolume = own < Rounding ? 0.0 : own > 1.0 - Rounding ? part.Volume : part.OwnVolume;
     centre /= part.Volume;
     part.Centre = this->Base_ + centre;
     Vec3 spread(0.0);
@@ -322,6 +356,8 @@ private:
   Vec3 Base_;
   Box Box_;
   double Volume_, Flat_, LeastArea_;
+  /// What finer grids leave of the cell.
+  std::vector<Box> Own_;
   std::vector<Wall> Walls_;
   std::vector<Piece> Pieces_;
   CellCut Cut_;

@@ -71,13 +71,6 @@ void CheckGrid(const SmokeGrid& grid)
   check(grid.EmittedLuminance, "the emitted luminance");
 }
 
-/// Of two boxes.
-double SharedVolume(const Box& a, const Box& b)
-{
-  const Vec3 size = glm::max(glm::min(a.Upper, b.Upper) - glm::max(a.Lower, b.Lower), Vec3(0.0));
-  return size.x * size.y * size.z;
-}
-
 } // namespace
 
 int Medium::Grid::Index(int axis, double coordinate) const
@@ -185,7 +178,7 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
     for (std::size_t fine = 0; fine < coarse; ++fine)
     {
       const Box& over = this->Grids_[this->Rank_[fine]].Bounds;
-      if (SharedVolume(grid.Bounds, over) > 0.0)
+      if (grid.Bounds.Meets(over))
       {
         grid.Finer.push_back(over);
         this->Overlap_ = true;
@@ -267,53 +260,75 @@ double Medium::CellVolume(std::int64_t cell) const
 
 double Medium::OwnVolume(std::int64_t cell) const
 {
-  const double volume = this->CellVolume(cell);
+  if (const CellPart* part = this->Parts_.Find(cell))
+  {
+    return part->OwnVolume;
+  }
   if (!this->Overlap_)
   {
-    return volume;
+    return this->CellVolume(cell);
   }
+  double own = 0.0;
+  for (const Box& box : this->OwnBoxes(cell))
+  {
+    own += box.Volume();
+  }
+  return own;
+}
+
+std::vector<Box> Medium::OwnBoxes(std::int64_t cell) const
+{
   std::array<int, 3> index;
   const Grid& grid = this->GridOf(cell, index);
-  // A part is covered as its cell is.
-  const Box box = this->BoxOf(this->Parts_.CellOf(cell));
+  const Box box = this->BoxOf(cell);
   std::vector<Box> finer;
   std::copy_if(grid.Finer.begin(), grid.Finer.end(), std::back_inserter(finer),
-    [&box](const Box& over) { return SharedVolume(box, over) > 0.0; });
+    [&box](const Box& over) { return box.Meets(over); });
   if (finer.empty())
   {
-    return volume;
+    return {box};
   }
   // Where finer grids begin and end parts the cell into boxes that each belong to one grid.
+  constexpr double Rounding = 1e-6;
   std::array<std::vector<double>, 3> borders;
   for (int axis = 0; axis < 3; ++axis)
   {
-    borders[axis] = {box.Lower[axis], box.Upper[axis]};
+    std::vector<double> ends = {box.Upper[axis]};
     for (const Box& over : finer)
     {
-      borders[axis].push_back(std::clamp(over.Lower[axis], box.Lower[axis], box.Upper[axis]));
-      borders[axis].push_back(std::clamp(over.Upper[axis], box.Lower[axis], box.Upper[axis]));
+      ends.push_back(std::clamp(over.Lower[axis], box.Lower[axis], box.Upper[axis]));
+      ends.push_back(std::clamp(over.Upper[axis], box.Lower[axis], box.Upper[axis]));
     }
-    std::sort(borders[axis].begin(), borders[axis].end());
-  }
-  double own = 0.0;
-  for (std::size_t k = 1; k < borders[2].size(); ++k)
-  {
-    for (std::size_t j = 1; j < borders[1].size(); ++j)
+    std::sort(ends.begin(), ends.end());
+    borders[axis] = {box.Lower[axis]};
+    // What rounding leaves between two of them is nothing.
+    for (const double end : ends)
     {
-      for (std::size_t i = 1; i < borders[0].size(); ++i)
+      if (end - borders[axis].back() > Rounding * box.Size()[axis])
       {
-        const Box one{{borders[0][i - 1], borders[1][j - 1], borders[2][k - 1]},
-          {borders[0][i], borders[1][j], borders[2][k]}};
-        const bool covered = std::any_of(finer.begin(), finer.end(),
-          [&one](const Box& over) { return over.Contains(0.5 * (one.Lower + one.Upper)); });
-        own += covered ? 0.0 : SharedVolume(one, one);
+        borders[axis].push_back(end);
       }
     }
+    borders[axis].back() = box.Upper[axis];
   }
-  // What rounding leaves or takes is nothing.
-  constexpr double Rounding = 1e-6;
-  const double share = own / SharedVolume(box, box);
-  return share < Rounding ? 0.0 : share > 1.0 - Rounding ? volume : share * volume;
+  std::vector<Box> own;
+  ForEachPlace({static_cast<int>(borders[0].size()) - 1, static_cast<int>(borders[1].size()) - 1,
+                 static_cast<int>(borders[2].size()) - 1},
+    [&](const std::array<int, 3>& place)
+    {
+      Box one;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        one.Lower[axis] = borders[axis][place[axis]];
+        one.Upper[axis] = borders[axis][place[axis] + 1];
+      }
+      if (std::none_of(finer.begin(), finer.end(),
+            [&one](const Box& over) { return over.Contains(one.Centre()); }))
+      {
+        own.push_back(one);
+      }
+    });
+  return own;
 }
 
 double Medium::MeanChord(std::int64_t cell) const

@@ -77,6 +77,8 @@ public:
   double CellVolume(std::int64_t cell) const;
   /// Volume without what finer grids lie over, but for a millionth: what rays meet of a cell.
   double OwnVolume(std::int64_t cell) const;
+  /// That of a whole cell of a grid, as boxes beside one another.
+  std::vector<Box> OwnBoxes(std::int64_t cell) const;
   /// Mean length of the isotropic chords of a convex cell, 4 V / S (Cauchy) [m].
   double MeanChord(std::int64_t cell) const;
   /// Whether a finer grid lies over a part of the cell.

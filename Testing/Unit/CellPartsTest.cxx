@@ -13,7 +13,8 @@ namespace
 using namespace smokevis;
 
 /// Eight cells with edges of 1 m around the origin, and triangles among them.
-Scene CutBy(const std::vector<Triangle>& walls)
+/// @param finer a finer grid over them
+Scene CutBy(const std::vector<Triangle>& walls, const std::vector<SmokeGrid>& finer = {})
 {
   SceneDescription scene;
   SmokeGrid grid;
@@ -24,6 +25,7 @@ Scene CutBy(const std::vector<Triangle>& walls)
   grid.Extinction.assign(8, 1.0F);
   grid.Extinction[0] = 0.0F;
   scene.Grids = {grid};
+  scene.Grids.insert(scene.Grids.end(), finer.begin(), finer.end());
   for (const auto& wall : walls)
   {
     const auto first = static_cast<std::uint32_t>(scene.Surfaces.Points.size());
@@ -118,6 +120,23 @@ TEST(CellParts, TwoSheets)
   EXPECT_NEAR(volumes[0], 0.1, 1e-12);
   EXPECT_NEAR(volumes[1], 0.3, 1e-12);
   EXPECT_NEAR(volumes[2], 0.6, 1e-12);
+}
+
+// A finer grid over the half of a cell below z = 1/2, in which x + y + z = 1 cuts off a tetrahedron:
+// of its 1/6 there is left 1/48 above that.
+TEST(CellParts, PartlyUnderAFinerGrid)
+{
+  SmokeGrid finer;
+  finer.Nodes = {{{0.0, 0.5, 1.0}, {0.0, 0.5, 1.0}, {0.0, 0.25, 0.5}}};
+  finer.Extinction.assign(8, 0.0F);
+  const Scene scene = CutBy({Wide({1, 0, 0}, {1, 1, 1})}, {finer});
+  const Medium& smoke = scene.Smoke();
+  const std::int64_t inside = smoke.Locate({0.1, 0.1, 0.6});
+  const std::int64_t outside = smoke.Locate({0.9, 0.9, 0.9});
+  ASSERT_NE(inside, outside);
+  EXPECT_NEAR(smoke.OwnVolume(inside), 1.0 / 48.0, 1e-12);
+  EXPECT_NEAR(smoke.OwnVolume(outside), 0.5 - 1.0 / 48.0, 1e-12);
+  EXPECT_NEAR(smoke.CellVolume(inside), 1.0 / 6.0, 1e-12);
 }
 
 TEST(CellParts, SmallWallLeavesTheCellWhole)

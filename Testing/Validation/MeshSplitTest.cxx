@@ -136,4 +136,27 @@ TEST(MeshSplit, LampInACellPartlyUnderAFinerMesh)
   }
 }
 
+// A screen that parts cells of which a finer mesh leaves little: each part is what lines meet of it.
+// In their first steps parts took up more light than comes to them, and ever more.
+TEST(MeshSplit, ScreenInCellsPartlyUnderAFinerMesh)
+{
+  report::Head("Power where a screen stands in cells partly under a finer mesh [lm]");
+  for (const double albedo : {0.5, 0.99})
+  {
+    SceneDescription scene;
+    scene.Albedo = albedo;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(4.0), {4, 4, 4}, 8.0),
+      scenes::UniformSmoke(Vec3(0.0), {4.0, 4.0, 1.9}, {16, 16, 8}, 8.0)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), Vec3(4.0), 0.5, 0.3);
+    scenes::AddRectangle(scene.Surfaces, {0.3, 0.2, 1.5}, {3.2, 0, 0.3}, {0, 3.5, 0.25}, 4, 4, 0.5);
+    scene.Emitters = {scenes::Plate({2, 2, 2.6}, {0, 0, -1}, {0, 1, 0}, 0.4, 0.4, 100.0)};
+    const Solved solved(scene, 0.03);
+    const Estimate smoke = solved.AbsorbedInSmoke();
+    const Estimate surfaces = solved.AbsorbedOnSurfaces();
+    report::Relative("albedo " + std::to_string(albedo).substr(0, 4),
+      solved.TheScene->Lights().Flux(0), smoke.Mean + surfaces.Mean, 0.005,
+      std::hypot(smoke.StandardError, surfaces.StandardError));
+  }
+}
+
 } // namespace
