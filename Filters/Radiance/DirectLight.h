@@ -1,7 +1,7 @@
 // Light that reaches points, smoke cells and surface patches straight from the emitters.
 #pragma once
 
-#include "Deepening.h"
+#include "LightWays.h"
 #include "Medium.h"
 #include "Triangle.h"
 #include "Types.h"
@@ -37,9 +37,9 @@ public:
   /// Illuminance at a point of a surface with a unit normal [lx].
   Spectrum Illuminance(
     std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
-  /// Mean fluence over a smoke cell [lx].
-  Spectrum CellFluence(std::size_t light, std::int64_t cell) const;
-  /// The same, of a light near to the cell.
+  /// Mean fluence over a part of a cell that walls cut [lx].
+  Spectrum PartFluence(std::size_t light, const CellPart& part) const;
+  /// Mean fluence over a smoke cell, or the part with this number, of a light near to it [lx].
   /// @param clear whether nothing hides it from the cell
   /// @param kept its fluence around it, or none
   Spectrum NearCellFluence(
@@ -67,8 +67,18 @@ private:
   /// One way stands for all ways to a group of radius r at a distance d below this r/d; above it
   /// each Gauss point of a leaf has its own.
   static constexpr double PathRatio = 0.1;
-  /// A box as large as this share of its distance to the light is split.
+  /// A box as large as this share of its distance to the light is split, so often at most.
   static constexpr double BoxRatio = 0.5;
+  static constexpr int BoxSplits = 3;
+  /// Cells are often just as deep as what follows: somewhat more, or rounding would decide.
+  static constexpr double Aside = 1.0 + 1e-6;
+  /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
+  /// two along each edge follow an exponential over a depth x to x^4 / 4320, three go farther.
+  /// Above the deepest nearly all light stays in the first part of the box.
+  static constexpr double FlatDepth = 0.25 * Aside;
+  static constexpr double FlatRatio = 0.2 * Aside;
+  static constexpr double TwoPointDepth = 1.2 * Aside;
+  static constexpr double DeepestGauss = 4.0 * Aside;
 
   /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
   /// [1/m]: a polynomial through three by three of them.
@@ -121,8 +131,8 @@ private:
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
   /// Mean fluence over a cell of a light that is near to it; none where it is not.
   std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
-  /// Mean fluence over a part of a cell that walls cut.
-  Spectrum PartFluence(std::size_t light, const CellPart& part) const;
+  /// Mean fluence over a part of a cell, of whatever light.
+  Spectrum SampledFluence(std::size_t light, const CellPart& part) const;
   /// A light as a box in a smoke cell sees it.
   struct BoxLight
   {
@@ -143,8 +153,14 @@ private:
   /// @param extinction mean along all ways to the light, if known [1/m]
   Spectrum Fluence(
     const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const;
-  /// Mean fluence over the whole of the light's cell.
-  Spectrum WholeCellFluence(BoxLight light) const;
+  /// The ways from cells to a light.
+  LightWays CellWays(std::size_t light) const;
+  /// Mean fluence over the light's cell, no part of one.
+  Spectrum CellFluence(BoxLight light) const;
+  /// The same over what finer grids leave of the cell.
+  Spectrum OwnFluence(const BoxLight& light, int splits) const;
+  /// Mean over a box within the cell.
+  /// @param splits how often it may be split
   Spectrum BoxFluence(
     const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
   /// Mean extinction along all ways from a place in a box, where one stands for all [1/m].

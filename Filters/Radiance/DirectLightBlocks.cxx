@@ -1,7 +1,6 @@
 // DirectLight's part for blocks of smoke cells, which share the ways to a light.
 #include "DirectLight.h"
 
-#include "LightWays.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -249,10 +248,8 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
     return work;
   }
   const bool weak = ways && ways->Share < WeakShare;
-  const std::vector<Deepening> deepening =
-    LightWays(smoke, this->Scene_.LargestScale(), root)
-      .DeepeningIn(
-        block, ways ? ways->Extinction : std::vector<double>(), weak || (ways && ways->Rough));
+  const std::vector<Deepening> deepening = this->CellWays(light).DeepeningIn(
+    block, ways ? ways->Extinction : std::vector<double>(), weak || (ways && ways->Rough));
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -266,7 +263,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
       std::optional<Spectrum> value = this->KeptFluence(light, cell);
       if (!value)
       {
-        value = this->WholeCellFluence(
+        value = this->CellFluence(
           {light, cell, false, deepening[block.Number(place)], ways.has_value(), weak});
       }
       for (int band = 0; band < this->Scene_.Bands(); ++band)

@@ -100,13 +100,13 @@ void DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sum
   this->ForOwn(parts.size(), 16, NearShare, PartShare,
     [&](std::size_t part)
     {
-      const std::int64_t cell = parts[part].Number;
+      Spectrum& sum = sums[parts[part].Number];
       for (std::size_t light = 0; light < this->Scene_.Lights().Lights().size(); ++light)
       {
-        const Spectrum value = direct.CellFluence(light, cell);
+        const Spectrum value = direct.PartFluence(light, parts[part]);
         for (int band = 0; band < this->Field_.Bands; ++band)
         {
-          sums[cell][band] += value[band];
+          sum[band] += value[band];
         }
       }
     });

@@ -122,8 +122,8 @@ TEST(CellParts, TwoSheets)
   EXPECT_NEAR(volumes[2], 0.6, 1e-12);
 }
 
-// A finer grid over the half of a cell below z = 1/2, in which x + y + z = 1 cuts off a tetrahedron:
-// of its 1/6 there is left 1/48 above that.
+// A finer grid over the half of a cell below z = 1/2, in which x + y + z = 1 cuts off a
+// tetrahedron: of its 1/6 there is left 1/48 above that.
 TEST(CellParts, PartlyUnderAFinerGrid)
 {
   SmokeGrid finer;

@@ -136,8 +136,8 @@ TEST(MeshSplit, LampInACellPartlyUnderAFinerMesh)
   }
 }
 
-// A screen that parts cells of which a finer mesh leaves little: each part is what lines meet of it.
-// In their first steps parts took up more light than comes to them, and ever more.
+// A screen that parts cells of which a finer mesh leaves little: each part is what lines meet of
+// it. In their first steps parts took up more light than comes to them, and ever more.
 TEST(MeshSplit, ScreenInCellsPartlyUnderAFinerMesh)
 {
   report::Head("Power where a screen stands in cells partly under a finer mesh [lm]");

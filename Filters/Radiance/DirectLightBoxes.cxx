@@ -1,0 +1,367 @@
+// DirectLight's part for boxes of smoke: means over them.
+#include "DirectLight.h"
+
+#include "ExponentialMean.h"
+#include "GaussNodes.h"
+#include "NearField.h"
+#include "Places.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Slabs that a box which light hardly gets into is cut into, at most.
+constexpr int MostSlabs = 24;
+/// Share of a light's intensity towards any place in a box that there is towards its centre, where
+/// the centre tells of all: beams end within boxes.
+constexpr double SteadyShare = 0.2;
+
+/// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
+double MeanAttenuation(double x, double shift)
+{
+  return std::exp(LogarithmOfMean(x) - x * shift);
+}
+
+struct GaussPlace
+{
+  Vec3 Point;
+  double Weight;
+};
+
+/// Gauss places in a box, so many along each edge (1 to 3).
+std::vector<GaussPlace> GaussPlaces(
+  const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders)
+{
+  constexpr std::array<std::array<double, 3>, 3> nodes = {
+    {{0.5}, {Nodes2[0], Nodes2[1]}, {Nodes3[0], Nodes3[1], Nodes3[2]}}};
+  constexpr std::array<std::array<double, 3>, 3> weights = {
+    {{1.0}, {0.5, 0.5}, {Weights3[0], Weights3[1], Weights3[2]}}};
+  std::vector<GaussPlace> places;
+  places.reserve(static_cast<std::size_t>(orders[0]) * orders[1] * orders[2]);
+  ForEachPlace(orders,
+    [&](const std::array<int, 3>& index)
+    {
+      double weight = 1.0;
+      Vec3 share;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        share[axis] = nodes[orders[axis] - 1][index[axis]];
+        weight *= weights[orders[axis] - 1][index[axis]];
+      }
+      places.push_back({centre + (share - 0.5) * size, weight});
+    });
+  return places;
+}
+
+/// What a light that were a point would send along a way, over its luminous intensity.
+double PointLight(const LightGroup& light, const Vec3& way)
+{
+  const double square = glm::dot(way, way);
+  const double distance = std::sqrt(square);
+  const double cosine = glm::dot(way, light.Normal) / distance;
+  return cosine / square * light.Law.Relative(way / distance, cosine);
+}
+
+} // namespace
+
+Spectrum DirectLight::Fluence(
+  const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const
+{
+  if (light.Near && light.Near->Smooth(point))
+  {
+    Spectrum value{};
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      value[band] = light.Near->Fluence(point, band);
+    }
+    return value;
+  }
+  return extinction
+           ? this->Fluence(light.Index, Receiver{point, std::nullopt, light.Clear, {}, extinction})
+           : this->Fluence(light.Index, point, light.Clear);
+}
+
+Spectrum DirectLight::BoxFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Vec3 from = centre - root.Centre;
+  const double toCentre = glm::length(from);
+  const double distance = root.Distance(centre);
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
+  // A box wholly behind the plate gets nothing.
+  if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
+  {
+    return {};
+  }
+  if (splits > 0 && edge > BoxRatio * distance)
+  {
+    Spectrum sum{};
+    for (int part = 0; part < 8; ++part)
+    {
+      const Vec3 shift(part & 1 ? 0.25 : -0.25, part & 2 ? 0.25 : -0.25, part & 4 ? 0.25 : -0.25);
+      BoxLight moved = light;
+      moved.Ways = light.Ways.Moved(from, shift * size);
+      const Spectrum value = this->BoxFluence(moved, centre + shift * size, 0.5 * size, splits - 1);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += 0.125 * value[band];
+      }
+    }
+    return sum;
+  }
+  Vec3 middle = centre;
+  Vec3 extent = size;
+  double lit = 1.0;
+  const bool close = edge > BoxRatio * distance;
+  if (close)
+  {
+    // As fine as boxes get. One that the plate's plane cuts is lit only in front of it.
+    const double height = glm::dot(from, root.Normal);
+    const double reach = 0.5 * glm::dot(glm::abs(root.Normal), size);
+    lit = std::clamp(0.5 * (height / reach + 1.0), 0.0, 1.0);
+    middle += (lit < 1.0 ? 0.5 * (reach - height) : 0.0) * root.Normal;
+    extent *= glm::mix(Vec3(1.0), Vec3(lit), glm::abs(root.Normal));
+  }
+  if (lit == 0.0)
+  {
+    return {};
+  }
+  const double depth = this->BoxDepth(light.Cell, size);
+  const Vec3 within = glm::abs(light.Ways.Slope) * size * this->Scene_.LargestScale();
+  const Vec3 entering = light.Ways.Entry * size * this->Scene_.LargestScale();
+  const bool deepest = LargestEdge(within) >= DeepestGauss;
+  if (!close && !light.Weak)
+  {
+    const bool thick =
+      std::max(depth, LargestEdge(entering)) >= (depth > FlatDepth ? DeepestGauss : TwoPointDepth);
+    if (thick)
+    {
+      return this->GradedFluence(light, centre, size);
+    }
+    if (!deepest && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
+    {
+      return this->GaussFluence(light, centre, size);
+    }
+  }
+  // Mean over the box. Along a slope of the optical depth its exponential is exact; its mean lies
+  // at a place of its own, where the rest of the light's variation is taken.
+  const Vec3 along = toCentre > root.Radius ? from / toCentre : root.Normal;
+  Vec3 place = middle;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] -=
+      0.5 * extent[axis] *
+      Langevin(0.5 * this->Scene_.ExtinctionScale(0) * light.Ways.Slope[axis] * extent[axis]);
+  }
+  // What deepens so fast is not told that far from the centre.
+  Spectrum value = this->Fluence(light, place,
+    deepest && !light.Weak ? std::nullopt : this->ExtinctionFrom(light, centre, place));
+  double curvature = 1.0;
+  if (!close)
+  {
+    // What is left: second derivatives of cos / d^2.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      curvature += extent[axis] * extent[axis] * (9.0 * along[axis] * along[axis] - 3.0) /
+                   (24.0 * toCentre * toCentre);
+    }
+  }
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    // Off its axis a way is longer: second derivatives of the distance.
+    double longer = 0.0;
+    for (int axis = 0; axis < 3 && !close; ++axis)
+    {
+      longer += extent[axis] * extent[axis] * (1.0 - along[axis] * along[axis]) / (24.0 * toCentre);
+    }
+    const double scale = this->Scene_.ExtinctionScale(band);
+    double factor = lit * curvature * std::exp(-scale * light.Ways.Mean * longer);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double half = 0.5 * light.Ways.Slope[axis] * extent[axis];
+      const double shift = Langevin(this->Scene_.ExtinctionScale(0) * half);
+      const double own = Langevin(scale * half);
+      factor *= MeanAttenuation(scale * half, shift);
+      // Mean square of the distance from the centre, over that of the place.
+      const double spread = LangevinSlope(scale * half) + own * own - shift * shift;
+      factor *=
+        std::exp(-0.125 * scale * light.Ways.Bend[axis] * extent[axis] * extent[axis] * spread);
+    }
+    value[band] *= factor;
+  }
+  return value;
+}
+
+std::optional<double> DirectLight::ExtinctionFrom(
+  const BoxLight& light, const Vec3& centre, const Vec3& place) const
+{
+  const Vec3& target = this->Scene_.Lights().Root(light.Index).Centre;
+  const double distance = glm::length(place - target);
+  if (!light.Far || !(distance > 0.0))
+  {
+    return std::nullopt;
+  }
+  const Vec3 from = centre - target;
+  const double depth = light.Ways.Mean * glm::length(from) + light.Ways.At(from, place - centre);
+  return std::max(0.0, depth) / distance;
+}
+
+double DirectLight::BoxDepth(std::int64_t cell, const Vec3& size) const
+{
+  return this->Scene_.Smoke().Extinction(cell) * this->Scene_.LargestScale() * LargestEdge(size);
+}
+
+double DirectLight::SteepestDepth(const BoxLight& light, const Vec3& size) const
+{
+  const Vec3 slope = glm::max(glm::abs(light.Ways.Slope), light.Ways.Entry);
+  return std::max(
+    this->BoxDepth(light.Cell, size), LargestEdge(slope * size) * this->Scene_.LargestScale());
+}
+
+Spectrum DirectLight::GradedFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size) const
+{
+  // Slabs from the faces that light comes in through, each half as thick as the one behind it,
+  // until the first is thin; without such faces across the axis along which ways deepen most.
+  const double scale = this->Scene_.LargestScale();
+  const Vec3 from = centre - this->Scene_.Lights().Root(light.Index).Centre;
+  const Vec3 within = glm::abs(light.Ways.Slope) * size * scale;
+  const Vec3 entering = light.Ways.Entry * size * scale;
+  const bool enters = LargestEdge(entering) >= TwoPointDepth;
+  std::array<int, 3> slabs;
+  std::array<int, 3> orders;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double depth = std::max(within[axis], entering[axis]);
+    const bool graded =
+      enters ? entering[axis] >= TwoPointDepth : within[axis] == LargestEdge(within);
+    const double thickest = std::max(depth, this->BoxDepth(light.Cell, size));
+    slabs[axis] =
+      graded ? std::min(MostSlabs, 2 + static_cast<int>(std::log2(std::max(1.0, thickest)))) : 1;
+    // Along the others one place does for light that hardly changes.
+    const bool flat = depth < 2.0 * FlatDepth && size[axis] < FlatRatio * glm::length(from);
+    orders[axis] = !graded && flat ? 1 : 2;
+  }
+  Spectrum sum{};
+  ForEachPlace(slabs,
+    [&](const std::array<int, 3>& slab)
+    {
+      Vec3 middle = centre;
+      Vec3 extent = size;
+      double share = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double end = std::ldexp(1.0, slab[axis] - slabs[axis] + 1);
+        const double begin = slab[axis] == 0 ? 0.0 : 0.5 * end;
+        const double inwards = from[axis] >= 0.0 ? 1.0 : -1.0;
+        middle[axis] += inwards * (0.5 * (begin + end) - 0.5) * size[axis];
+        extent[axis] *= end - begin;
+        share *= end - begin;
+      }
+      for (const GaussPlace& place : GaussPlaces(middle, extent, orders))
+      {
+        const Spectrum value = this->Fluence(light, place.Point, std::nullopt);
+        for (int band = 0; band < this->Scene_.Bands(); ++band)
+        {
+          sum[band] += share * place.Weight * value[band];
+        }
+      }
+    });
+  return sum;
+}
+
+bool DirectLight::BehindBorder(const BoxLight& light) const
+{
+  return light.Ways.Border * this->Scene_.LargestScale() >= FlatDepth;
+}
+
+Spectrum DirectLight::GaussFluence(
+  const BoxLight& light, const Vec3& centre, const Vec3& size) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Vec3 from = centre - root.Centre;
+  const double toCentre = glm::length(from);
+  const int order = this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
+  const std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
+  Spectrum sum{};
+  const bool even = !this->BehindBorder(light);
+  if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
+  {
+    for (const GaussPlace& place : places)
+    {
+      const Spectrum value = this->Fluence(
+        light, place.Point, even ? this->ExtinctionFrom(light, centre, place.Point) : std::nullopt);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += place.Weight * value[band];
+      }
+    }
+    return sum;
+  }
+  Receiver receiver{centre, std::nullopt, light.Clear};
+  if (light.Far)
+  {
+    receiver.Extinction = light.Ways.Mean;
+  }
+  const Path path = this->SamplePath(root, receiver);
+  if (path.Visible == 0.0)
+  {
+    return {};
+  }
+  const double depth = path.MeanExtinction * toCentre;
+  const auto depthAt = [&](const Vec3& place)
+  { return std::max(0.0, depth + light.Ways.At(from, place - centre)); };
+  receiver.Clear = true;
+  const double height = glm::dot(from, root.Normal);
+  const auto steady = [&]
+  {
+    return std::all_of(places.begin(), places.end(),
+      [&](const GaussPlace& place) {
+        return SteadyShare * PointLight(root, place.Point - root.Centre) < PointLight(root, from);
+      });
+  };
+  if (height > glm::dot(glm::abs(root.Normal), size) && root.Plane() && steady())
+  {
+    // That the light is no point matters as much at one place of the box as at another: places
+    // differ from the centre as they would before a point.
+    receiver.Extinction = path.MeanExtinction;
+    sum = this->Fluence(light.Index, receiver);
+    const double atCentre = PointLight(root, from);
+    Spectrum mean{};
+    for (const GaussPlace& place : places)
+    {
+      const Vec3 way = place.Point - root.Centre;
+      const double weight = place.Weight * PointLight(root, way) / atCentre;
+      const double further = depthAt(place.Point) - depth;
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * further);
+      }
+    }
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] *= path.Visible * mean[band];
+    }
+    return sum;
+  }
+  for (const GaussPlace& place : places)
+  {
+    receiver.Point = place.Point;
+    receiver.Extinction = depthAt(place.Point) / glm::length(root.Centre - place.Point);
+    const Spectrum value = this->Fluence(light.Index, receiver);
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sum[band] += path.Visible * place.Weight * value[band];
+    }
+  }
+  return sum;
+}
+
+} // namespace smokevis
