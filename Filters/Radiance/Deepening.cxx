@@ -30,9 +30,6 @@ struct SlopeBeside
   }
 };
 
-/// Smoke of less than this share of a cell's extinction counts as clear air beside it.
-constexpr double ClearShare = 0.25;
-
 /// None at the light's own place, which all ways lead away from.
 Vec3 DirectionOf(const Vec3& way)
 {
@@ -61,7 +58,7 @@ Deepening Deepening::Within(
       std::max(result.Border, std::abs(cell.Extinction - before.Extinction) * cell.Size[axis]);
     const SlopeBeside below(cell, beside[axis][0], axis, slope);
     const SlopeBeside above(cell, beside[axis][1], axis, slope);
-    if (before.Extinction < ClearShare * cell.Extinction)
+    if (ClearBefore(before.Extinction, cell.Extinction))
     {
       result.Entry[axis] = std::abs(lit == 0 ? below.Slope : above.Slope);
     }

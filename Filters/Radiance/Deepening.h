@@ -37,6 +37,11 @@ struct Deepening
   /// light comes from; 0 where smoke is even.
   double Border = 0.0;
 
+  /// Whether smoke of one extinction counts as clear air before that of another.
+  static bool ClearBefore(double before, double extinction)
+  {
+    return before < ClearShare * extinction;
+  }
   /// Where the smoke is even.
   /// @param light where the ways lead to
   static Deepening Even(const CellWay& cell, const Vec3& light);
@@ -54,6 +59,10 @@ struct Deepening
   /// How much deeper the way is from a place `step` further.
   /// @param from the light's place to this one
   double At(const Vec3& from, const Vec3& step) const;
+
+private:
+  /// Smoke of less than this share of a cell's extinction counts as clear air beside it.
+  static constexpr double ClearShare = 0.25;
 };
 
 } // namespace smokevis

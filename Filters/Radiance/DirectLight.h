@@ -189,7 +189,10 @@ private:
     /// Whether what is told may be off by more than differences from cell to cell would bear.
     bool Rough = false;
   };
-  /// That bound.
+  /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
+  /// gets dark beside that face: its centre then tells nothing of what it gets.
+  bool Enters(const LightGroup& root, const Medium::Block& block) const;
+  /// That bound; infinite where there is none.
   /// @param extinction smallest mean along the ways [1/m]
   /// @param rough error of their optical depths
   double LargestShare(const LightGroup& root, const Medium::Block& block, double extinction,

@@ -75,10 +75,51 @@ double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
 
 } // namespace
 
+bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const double scale = this->Scene_.LargestScale();
+  // Whether any of the plate lies beyond a face of a cell.
+  const auto beyond = [&root](int axis, int side, const Box& cell)
+  {
+    return std::any_of(root.Corners.begin(), root.Corners.end(),
+      [&](const Vec3& corner)
+      { return side == 0 ? corner[axis] < cell.Lower[axis] : corner[axis] > cell.Upper[axis]; });
+  };
+  bool enters = false;
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::int64_t cell = smoke.Cell(block, place);
+      const double extinction = smoke.Extinction(cell);
+      if (enters || !(extinction > 0.0))
+      {
+        return;
+      }
+      const Vec3 way = smoke.CellCentre(cell) - root.Centre;
+      const Vec3 depth = extinction * scale * smoke.CellSize(cell) * glm::length(way);
+      for (int axis = 0; axis < 3 && !enters; ++axis)
+      {
+        const int side = way[axis] > 0.0 ? 0 : 1;
+        // How much deeper the ways get from that face to the other.
+        if (depth[axis] > FlatDepth * std::abs(way[axis]) && beyond(axis, side, smoke.BoxOf(cell)))
+        {
+          const bool within = side == 0 ? place[axis] > 0 : place[axis] + 1 < block.Size[axis];
+          std::array<int, 3> other = place;
+          other[axis] += side == 0 ? -1 : 1;
+          const std::int64_t before =
+            within ? smoke.Cell(block, other) : smoke.Neighbour(cell, axis, side);
+          enters = Deepening::ClearBefore(before < 0 ? 0.0 : smoke.Extinction(before), extinction);
+        }
+      }
+    });
+  return enters;
+}
+
 double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
   double extinction, double rough, const std::vector<Spectrum>& sums) const
 {
-  if (root.Law.Measured())
+  if (root.Law.Measured() || this->Enters(root, block))
   {
     return Infinity;
   }

@@ -7,6 +7,7 @@
 #include "TestReport.h"
 #include "WorkCount.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <tuple>
@@ -158,6 +159,30 @@ TEST(Skip, AnyClearLayer)
       scenes::Plate({0.1, 1.2, 0.1 * layer + 0.05}, {1, 0, 0}, {0, 0, 1}, 0.1, 0.1, 1e5)};
     report::Absolute("layer " + std::to_string(layer), 0.0,
       LargestChange(Solve(scene, true), Solve(scene, false)), 0.005);
+  }
+}
+
+// Light grazes a layer of dense smoke: of each cell only the skin is lit, far more than ways from
+// the centres of cells tell. What a lamp above sends through the layer is not all there is.
+TEST(Skip, LightThatGrazesALayer)
+{
+  report::Head("Light of a lamp that grazes a layer, with ways told and without");
+  const Vec3 upper(12.0, 2.4, 2.4);
+  constexpr std::size_t Floor = 120 * 24;
+  for (const double thickness : {4.0, 15.0, 60.0})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.0;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {120, 24, 24}, 0.0)};
+    std::fill_n(
+      scene.Grids[0].Extinction.begin() + 12 * Floor, 4 * Floor, static_cast<float>(thickness));
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 2.0, 0.0);
+    scene.Emitters = {
+      scenes::Plate({0.01, 1.2, 1.1}, {1, 0, 0}, {0, 0, 1}, 0.1, 0.1, 100.0),
+      scenes::Plate({8.0, 1.2, 2.39}, {0, 0, -1}, {1, 0, 0}, 0.1, 0.1, 1.0),
+    };
+    report::Absolute("layer of " + std::to_string(thickness).substr(0, 2) + " /m", 0.0,
+      LargestChange(Solve(scene, true), Solve(scene, false)), 0.01);
   }
 }
 
