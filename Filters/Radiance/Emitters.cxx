@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "LightLeaves.h"
 #include "PolygonClip.h"
+#include "SmokeBorders.h"
 #include "Triangle.h"
 
 #include <algorithm>
@@ -152,7 +153,8 @@ double LightGroup::EdgeDistance(const Vec3& point) const
   return std::sqrt(least);
 }
 
-EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight)
+EmitterSet::EmitterSet(
+  std::vector<EmitterCell> cells, int bands, double largestLight, const SmokeBorders* borders)
     : Bands_(bands), Cells_(std::move(cells))
 {
   for (std::size_t index = 0; index < this->Cells_.size(); ++index)
@@ -175,7 +177,7 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands, double largest
     this->Centres_.push_back(centre / (3.0 * this->Areas_.back()));
   }
   this->FindSigns();
-  this->BuildLights(largestLight);
+  this->BuildLights(largestLight, borders);
 }
 
 double EmitterSet::CellFlux(std::size_t cell, int band) const
@@ -324,7 +326,7 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
   return lightOf;
 }
 
-void EmitterSet::BuildLights(double largestLight)
+void EmitterSet::BuildLights(double largestLight, const SmokeBorders* borders)
 {
   const std::vector<int> lightOf = this->JoinCells(true);
   const std::vector<int> bodyOf = this->JoinCells(false);
@@ -349,28 +351,45 @@ void EmitterSet::BuildLights(double largestLight)
       this->AddLeavesOf(i, light.second);
     }
   }
-  const auto isDark = [](const LightGroup& leaf)
-  { return *std::max_element(leaf.Intensity.begin(), leaf.Intensity.end()) <= 0.0; };
   for (auto& [number, light] : lights)
   {
     auto& [first, leaves] = light;
     this->AddDarkLeaves(first, leaves);
-    for (std::vector<LightGroup>& part : FilledParts(std::move(leaves)))
+    std::vector<std::vector<LightGroup>> groups;
+    if (borders)
     {
-      const auto lit = std::stable_partition(part.begin(), part.end(), isDark);
-      const std::vector<LightGroup> dark(part.begin(), lit);
-      part.erase(part.begin(), lit);
-      if (part.size() > MostLeaves)
+      groups = borders->Divide(std::move(leaves));
+    }
+    else
+    {
+      groups.push_back(std::move(leaves));
+    }
+    for (std::vector<LightGroup>& group : groups)
+    {
+      for (std::vector<LightGroup>& part : FilledParts(std::move(group)))
       {
-        part = Coarsened(part, dark);
-      }
-      if (!part.empty())
-      {
-        this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
-        this->Groups_.emplace_back();
-        this->FillGroup(this->Lights_.back(), part, 0, part.size());
+        this->AddLight(std::move(part));
       }
     }
+  }
+}
+
+void EmitterSet::AddLight(std::vector<LightGroup> leaves)
+{
+  const auto lit = std::stable_partition(leaves.begin(), leaves.end(),
+    [](const LightGroup& leaf)
+    { return *std::max_element(leaf.Intensity.begin(), leaf.Intensity.end()) <= 0.0; });
+  const std::vector<LightGroup> dark(leaves.begin(), lit);
+  leaves.erase(leaves.begin(), lit);
+  if (leaves.size() > MostLeaves)
+  {
+    leaves = Coarsened(leaves, dark);
+  }
+  if (!leaves.empty())
+  {
+    this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
+    this->Groups_.emplace_back();
+    this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
   }
 }
 

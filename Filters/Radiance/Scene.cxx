@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "NearLights.h"
 #include "OpenFaces.h"
+#include "SmokeBorders.h"
 
 #include <cmath>
 #include <limits>
@@ -137,8 +138,9 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
   const Vec3 size = this->Upper_ - this->Lower_;
+  const SmokeBorders borders(this->Smoke_, this->LargestScale());
   this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands,
-    LargeLight * BoxSurface(size));
+    LargeLight * BoxSurface(size), &borders);
   this->SharesShapes_ = earlier && earlier->Lower_ == this->Lower_ &&
                         earlier->Upper_ == this->Upper_ &&
                         earlier->Smoke_.Lower() == this->Smoke_.Lower() &&

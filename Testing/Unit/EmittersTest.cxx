@@ -1,6 +1,8 @@
 // Plates: their areas, signs, lights, and the closed forms of polygons' light.
 #include "Emitters.h"
+#include "Medium.h"
 #include "PolygonLight.h"
+#include "SmokeBorders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -329,6 +331,62 @@ TEST(PolygonLight, ProjectedSolidAngle)
     ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, half), 1e-12);
   EXPECT_GT(ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, half), 0.1);
   EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {0, 0, -1}, square), 0.0, 1e-12);
+}
+
+/// Smoke of two extinctions below and above x = 0.5.
+Medium TwoLayers(float below, float above)
+{
+  SmokeGrid grid;
+  grid.Nodes = {{{-1.0, 0.5, 3.0}, {-1.0, 2.0}, {-1.0, 1.0}}};
+  grid.Extinction = {below, above};
+  return Medium({grid});
+}
+
+// A quarter of the plate lies in the one smoke, and three in the other.
+TEST(Emitters, BordersOfSmokeDivideLights)
+{
+  const std::vector<EmitterCell> plate = {Rectangle(0, 2, 0, 1, 10.0, -1)};
+  for (const bool dense : {true, false})
+  {
+    const Medium smoke = TwoLayers(0.0F, dense ? 0.2F : 0.05F);
+    const SmokeBorders borders(smoke, 1.0);
+    const EmitterSet set(plate, 1, AnySize, &borders);
+    ASSERT_EQ(set.Lights().size(), dense ? 2U : 1U);
+    double intensity = 0.0;
+    double least = 1e300;
+    for (std::size_t light = 0; light < set.Lights().size(); ++light)
+    {
+      intensity += set.Root(light).Intensity[0];
+      least = std::min(least, set.Root(light).Intensity[0]);
+    }
+    EXPECT_NEAR(intensity, 20.0, 1e-12);
+    EXPECT_NEAR(least, dense ? 5.0 : 20.0, 1e-12);
+  }
+  // Red is dimmed less than other light.
+  const Medium thin = TwoLayers(0.0F, 0.05F);
+  const SmokeBorders blue(thin, 4.0);
+  EXPECT_EQ(EmitterSet(plate, 1, AnySize, &blue).Lights().size(), 2U);
+}
+
+// A light in smoke that varies from cell to cell stays few.
+TEST(Emitters, NoisySmokeMakesNoSwarmOfLights)
+{
+  SmokeGrid grid;
+  for (std::vector<double>& nodes : grid.Nodes)
+  {
+    for (int node = -10; node <= 30; ++node)
+    {
+      nodes.push_back(0.1 * node + 0.05);
+    }
+  }
+  for (std::size_t cell = 0; cell < 40 * 40 * 40; ++cell)
+  {
+    grid.Extinction.push_back(cell * 7919 % 13 < 6 ? 0.5F : 5.0F);
+  }
+  const Medium smoke({grid});
+  const SmokeBorders borders(smoke, 1.0);
+  const EmitterSet set({Rectangle(0, 2, 0, 1, 10.0, -1)}, 1, AnySize, &borders);
+  EXPECT_LE(set.Lights().size(), 16U);
 }
 
 } // namespace

@@ -262,55 +262,97 @@ double TakenByCube(const EmitterCell& lamp, double luminance, double extinction,
   return power * sum / (Places * Places * Directions * Directions);
 }
 
+/// A cube of uniform smoke of 16 cells an edge in clear air.
+/// @param depth optical depth of a cell
+SceneDescription CloudInClearAir(double depth)
+{
+  constexpr int Cells = 16;
+  constexpr double Edge = 1.0 / Cells;
+  SceneDescription scene;
+  scene.Albedo = 0.0;
+  SmokeGrid grid = scenes::UniformSmoke(
+    Vec3(-Edge), Vec3(1.0 + Edge), {Cells + 2, Cells + 2, Cells + 2}, depth / Edge);
+  for (std::size_t i = 0; i < grid.Extinction.size(); ++i)
+  {
+    const auto inside = [](std::size_t place) { return place > 0 && place <= Cells; };
+    constexpr std::size_t row = Cells + 2;
+    grid.Extinction[i] *=
+      inside(i % row) && inside(i / row % row) && inside(i / (row * row)) ? 1.0F : 0.0F;
+  }
+  scene.Grids = {grid};
+  return scene;
+}
+
+/// Power that the smoke takes up of the direct light in one band, were its albedo 0 [lm].
+double TakenDirectly(const Solved& solved, int band)
+{
+  const Medium& smoke = solved.TheScene->Smoke();
+  double taken = 0.0;
+  for (std::size_t i = 0; i < smoke.Cells(); ++i)
+  {
+    const auto cell = static_cast<std::int64_t>(i);
+    taken += smoke.Extinction(cell) * solved.TheScene->ExtinctionScale(band) *
+             smoke.CellVolume(cell) *
+             solved.Field->DirectFluence[solved.Field->CellIndex(band, cell)];
+  }
+  return taken;
+}
+
+constexpr Box UnitCube{Vec3(0.0), Vec3(1.0)};
+
 // Light that comes into smoke aslant gets dark faster behind its border than the cells are deep, in
 // bands of more and of less extinction, too, and where it hardly gets into the first cell.
 TEST(Balance, LampAsideOfACloud)
 {
   report::Head("Direct light of a lamp aside of a cloud in clear air, taken up there [lm]");
-  const Box cube{Vec3(0.0), Vec3(1.0)};
-  const std::array<double, 3> scales = {1.0, 3.0, 0.3};
   for (const auto& [name, centre, normal] :
     {std::tuple{"above", Vec3(0.5, 0.5, 2.0), Vec3(0, 0, -1)},
       {"aside", Vec3(-0.15, 0.5, 1.15), Vec3(0, 0, -1)},
+      {"grazing", Vec3(-0.5, 0.5, 1.06), Vec3(1, 0, 0)},
       {"askew", Vec3(-1.0, -0.7, 1.6), Vec3(0.6, 0.4, -0.69)}})
   {
     for (const double depth : {0.0625, 0.25, 0.625, 20.0})
     {
-      constexpr int Cells = 16;
-      SceneDescription scene;
-      scene.Albedo = 0.0;
+      SceneDescription scene = CloudInClearAir(depth);
       scene.Bands = 3;
-      scene.ExtinctionScale = scales;
-      constexpr double edge = 1.0 / Cells;
-      SmokeGrid grid = scenes::UniformSmoke(
-        Vec3(-edge), Vec3(1.0 + edge), {Cells + 2, Cells + 2, Cells + 2}, depth / edge);
-      for (std::size_t i = 0; i < grid.Extinction.size(); ++i)
-      {
-        const auto inside = [](std::size_t place) { return place > 0 && place <= Cells; };
-        constexpr std::size_t row = Cells + 2;
-        grid.Extinction[i] *=
-          inside(i % row) && inside(i / row % row) && inside(i / (row * row)) ? 1.0F : 0.0F;
-      }
-      scene.Grids = {grid};
+      scene.ExtinctionScale = {1.0, 3.0, 0.3};
       const double luminance = 100.0;
       scene.Emitters = {
         scenes::Plate(centre, glm::normalize(normal), {0, 1, 0}, 0.1, 0.1, luminance)};
       const Solved solved(scene);
-      const Medium& smoke = solved.TheScene->Smoke();
       for (int band = 0; band < scene.Bands; ++band)
       {
-        double taken = 0.0;
-        for (std::size_t i = 0; i < smoke.Cells(); ++i)
-        {
-          const auto cell = static_cast<std::int64_t>(i);
-          taken += smoke.Extinction(cell) * scales[band] * smoke.CellVolume(cell) *
-                   solved.Field->DirectFluence[solved.Field->CellIndex(band, cell)];
-        }
-        report::Relative(std::string(name) + ", depth of a cell " +
-                           std::to_string(depth * scales[band]).substr(0, 5),
-          TakenByCube(scene.Emitters[0], luminance, depth * scales[band] / edge, cube), taken,
-          0.01);
+        const double scale = scene.ExtinctionScale[band];
+        report::Relative(
+          std::string(name) + ", depth of a cell " + std::to_string(depth * scale).substr(0, 5),
+          TakenByCube(scene.Emitters[0], luminance, 16.0 * depth * scale, UnitCube),
+          TakenDirectly(solved, band), 0.01);
       }
+    }
+  }
+}
+
+// The border of the smoke crosses the plate: from one of its halves light has to get out of the
+// smoke first, and ways from its middle tell of neither.
+TEST(Balance, LampHalfInACloud)
+{
+  report::Head("Direct light of a lamp that the border of a cloud crosses, taken up there [lm]");
+  for (const auto& [name, centre, normal] :
+    {std::tuple{"along the border", Vec3(0.4, 0.5, 1.0), Vec3(1, 0, 0)},
+      {"a quarter outside", Vec3(0.4, 0.5, 0.9), Vec3(1, 0, 0)},
+      {"askew", Vec3(0.5, 0.5, 1.0), Vec3(0.6, 0.5, -0.3)}})
+  {
+    for (const double depth : {0.0625, 0.25, 1.0, 4.0})
+    {
+      SceneDescription scene = CloudInClearAir(depth);
+      const double luminance = 100.0;
+      scene.Emitters = {
+        scenes::Plate(centre, glm::normalize(normal), {0, 0, 1}, 0.3, 0.3, luminance)};
+      const Solved solved(scene);
+      report::Relative(
+        std::string(name) + ", depth of a cell " + std::to_string(depth).substr(0, 5),
+        TakenByCube(scene.Emitters[0], luminance, 16.0 * depth, UnitCube), TakenDirectly(solved, 0),
+        0.02);
     }
   }
 }

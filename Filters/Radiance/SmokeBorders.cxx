@@ -1,0 +1,182 @@
+#include "SmokeBorders.h"
+
+#include "LightLeaves.h"
+#include "Medium.h"
+#include "PolygonClip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Least step of the optical depth at which a light is divided. Each further cut takes so many
+/// times the step of the one before it, and there are so many at most: smoke that varies all over
+/// makes no swarm of lights.
+constexpr double LeastStep = 0.1;
+constexpr double StepGrowth = 4.0;
+constexpr int MostCuts = 4;
+/// Places along a border where smoke is looked at, how far in front of the plate, and how far on
+/// either side, as shares of the plate's reach across the border.
+constexpr int Places = 8;
+constexpr double InFront = 1e-3;
+constexpr double Beside = 1e-4;
+/// Sine of the angle between a plate and a border below which they run side by side.
+constexpr double LeastSlant = 0.05;
+
+/// The leaves' parts on one side of a plane across an axis.
+std::vector<LightGroup> Side(
+  const std::vector<LightGroup>& leaves, int axis, double place, double sign)
+{
+  std::vector<LightGroup> kept;
+  for (const LightGroup& leaf : leaves)
+  {
+    EmitterCell part;
+    KeepSide(
+      std::vector<Vec3>(leaf.Corners.begin(), leaf.Corners.end()),
+      [&](const Vec3& point) { return sign * (point[axis] - place); }, part.Vertices);
+    part.SignId = leaf.SignId;
+    for (int band = 0; band < MaxBands; ++band)
+    {
+      part.Luminance[band] = leaf.Intensity[band] / leaf.Area;
+    }
+    AddLeaves(part, leaf.Normal, leaf.Law, leaf.Area, kept);
+  }
+  return kept;
+}
+
+} // namespace
+
+double SmokeBorders::StepAt(
+  const Border& border, const std::array<Vec3, 4>& plate, const Vec3& normal) const
+{
+  // Along the plate and across the border.
+  Vec3 across(0.0);
+  across[border.Axis] = 1.0;
+  across -= normal[border.Axis] * normal;
+  if (glm::length(across) < LeastSlant)
+  {
+    return 0.0;
+  }
+  const double slant = glm::length(across);
+  across /= slant;
+  double below = 0.0;
+  double above = 0.0;
+  for (const Vec3& corner : plate)
+  {
+    below = std::max(below, (border.Place - corner[border.Axis]) / slant);
+    above = std::max(above, (corner[border.Axis] - border.Place) / slant);
+  }
+  const double reach = below + above;
+  std::vector<Vec3> strip;
+  KeepBetween(
+    std::vector<Vec3>(plate.begin(), plate.end()),
+    [&](const Vec3& point) { return (point[border.Axis] - border.Place) / slant; }, -Beside * reach,
+    Beside * reach, strip);
+  if (strip.empty())
+  {
+    return 0.0;
+  }
+  const Vec3 along = glm::cross(normal, across);
+  const auto ends = std::minmax_element(strip.begin(), strip.end(),
+    [&](const Vec3& a, const Vec3& b) { return glm::dot(a, along) < glm::dot(b, along); });
+  // Their middle lies on the border but for the strip's width.
+  Vec3 middle = 0.5 * (*ends.first + *ends.second) + InFront * reach * normal;
+  middle += (border.Place - middle[border.Axis]) / slant * across;
+  const double length = glm::dot(*ends.second - *ends.first, along);
+  const auto extinction = [this](const Vec3& point)
+  {
+    const std::int64_t cell = this->Smoke_.Locate(point);
+    return cell < 0 ? 0.0 : static_cast<double>(this->Smoke_.Extinction(cell));
+  };
+  double step = 0.0;
+  for (int i = 0; i < Places; ++i)
+  {
+    const Vec3 point = middle + ((i + 0.5) / Places - 0.5) * length * along;
+    step +=
+      extinction(point + Beside * reach * across) - extinction(point - Beside * reach * across);
+  }
+  return std::abs(step) / Places * this->Scale_ * 2.0 * std::min(below, above);
+}
+
+SmokeBorders::Border SmokeBorders::Largest(const std::vector<LightGroup>& leaves) const
+{
+  const std::array<Vec3, 4> plate = RectangleAround(leaves, leaves.front().Centre);
+  const auto [lower, upper] = std::accumulate(plate.begin(), plate.end(), Box::Nothing(),
+    [](Box box, const Vec3& corner)
+    {
+      box.Add({corner, corner});
+      return box;
+    });
+  std::array<std::set<double>, 3> places;
+  this->Smoke_.ForCellsIn(lower, upper,
+    [&](std::int64_t cell)
+    {
+      const Box box = this->Smoke_.BoxOf(cell);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (const double place : {box.Lower[axis], box.Upper[axis]})
+        {
+          if (place > lower[axis] && place < upper[axis])
+          {
+            places[axis].insert(place);
+          }
+        }
+      }
+    });
+  Border largest;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double place : places[axis])
+    {
+      Border border{axis, place};
+      border.Step = this->StepAt(border, plate, leaves.front().Normal);
+      if (border.Step > largest.Step)
+      {
+        largest = border;
+      }
+    }
+  }
+  return largest;
+}
+
+std::vector<std::vector<LightGroup>> SmokeBorders::Divide(std::vector<LightGroup> leaves) const
+{
+  struct Group
+  {
+    std::vector<LightGroup> Leaves;
+    int Cuts = 0;
+    double LeastStep = 0.0;
+  };
+  std::vector<std::vector<LightGroup>> groups;
+  std::vector<Group> open;
+  open.push_back({std::move(leaves), 0, LeastStep});
+  while (!open.empty())
+  {
+    Group group = std::move(open.back());
+    open.pop_back();
+    if (group.Leaves.empty())
+    {
+      continue;
+    }
+    const Border border = group.Cuts < MostCuts ? this->Largest(group.Leaves) : Border{};
+    if (border.Step < group.LeastStep)
+    {
+      groups.push_back(std::move(group.Leaves));
+      continue;
+    }
+    for (const double sign : {1.0, -1.0})
+    {
+      open.push_back({Side(group.Leaves, border.Axis, border.Place, sign), group.Cuts + 1,
+        StepGrowth * group.LeastStep});
+    }
+  }
+  return groups;
+}
+
+} // namespace smokevis
