@@ -78,14 +78,21 @@ double Trilinear(const std::array<double, 8>& corners, const Vec3& share)
 bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const double scale = this->Scene_.LargestScale();
-  // Whether any of the plate lies beyond a face of a cell.
-  const auto beyond = [&root](int axis, int side, const Box& cell)
+  // Where the cells' faces lie along each axis, and the light reaches.
+  std::array<std::vector<Box>, 3> rows;
+  Box light{root.Corners[0], root.Corners[0]};
+  for (const Vec3& corner : root.Corners)
   {
-    return std::any_of(root.Corners.begin(), root.Corners.end(),
-      [&](const Vec3& corner)
-      { return side == 0 ? corner[axis] < cell.Lower[axis] : corner[axis] > cell.Upper[axis]; });
-  };
+    light.Add({corner, corner});
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::array<int, 3> place{};
+    for (; place[axis] < block.Size[axis]; ++place[axis])
+    {
+      rows[axis].push_back(smoke.BoxOf(smoke.Cell(block, place)));
+    }
+  }
   bool enters = false;
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
@@ -96,19 +103,24 @@ bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) con
       {
         return;
       }
-      const Vec3 way = smoke.CellCentre(cell) - root.Centre;
-      const Vec3 depth = extinction * scale * smoke.CellSize(cell) * glm::length(way);
+      Box own;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const Box& row = rows[axis][place[axis]];
+        own.Lower[axis] = row.Lower[axis];
+        own.Upper[axis] = row.Upper[axis];
+      }
+      const Vec3 way = own.Centre() - root.Centre;
+      const Vec3 depth = extinction * this->Scene_.LargestScale() * glm::length(way) * own.Size();
       for (int axis = 0; axis < 3 && !enters; ++axis)
       {
+        // How much deeper the ways get from the one face to the other.
         const int side = way[axis] > 0.0 ? 0 : 1;
-        // How much deeper the ways get from that face to the other.
-        if (depth[axis] > FlatDepth * std::abs(way[axis]) && beyond(axis, side, smoke.BoxOf(cell)))
+        const bool beyond =
+          side == 0 ? light.Lower[axis] < own.Lower[axis] : light.Upper[axis] > own.Upper[axis];
+        if (beyond && depth[axis] > FlatDepth * std::abs(way[axis]))
         {
-          const bool within = side == 0 ? place[axis] > 0 : place[axis] + 1 < block.Size[axis];
-          std::array<int, 3> other = place;
-          other[axis] += side == 0 ? -1 : 1;
-          const std::int64_t before =
-            within ? smoke.Cell(block, other) : smoke.Neighbour(cell, axis, side);
+          const std::int64_t before = smoke.Neighbour(cell, axis, side);
           enters = Deepening::ClearBefore(before < 0 ? 0.0 : smoke.Extinction(before), extinction);
         }
       }
@@ -119,7 +131,7 @@ bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) con
 double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
   double extinction, double rough, const std::vector<Spectrum>& sums) const
 {
-  if (root.Law.Measured() || this->Enters(root, block))
+  if (root.Law.Measured())
   {
     return Infinity;
   }
@@ -151,7 +163,9 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
         share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
       }
     });
-  return share * static_cast<double>(this->Scene_.Lights().Lights().size());
+  share *= static_cast<double>(this->Scene_.Lights().Lights().size());
+  // Only of a light that is weaker than others it matters whether this bounds it.
+  return share < 1.0 && this->Enters(root, block) ? Infinity : share;
 }
 
 std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightGroup& root,
