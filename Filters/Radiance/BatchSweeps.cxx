@@ -49,8 +49,7 @@ void BatchSweeps::Draw(int sweeps, bool thin)
     this->Progress_.ThrowIfStopped("light field");
     this->LinesABatch_ += thin ? this->Sweep_.ThinLines() : this->Sweep_.Lines();
     ++this->Done_;
-    this->Progress_.Report(
-      this->Span_.To - (this->Span_.To - this->Span_.From) * std::exp(-ProgressRate * this->Done_));
+    this->Progress_.Report(this->Reached());
   }
   if (this->Completion_)
   {
@@ -67,6 +66,12 @@ void BatchSweeps::Draw(int sweeps, bool thin)
   {
     this->Arena_.execute([&] { this->Completion_->CompleteLatest(sweeps, this->States_); });
   }
+}
+
+double BatchSweeps::Reached() const
+{
+  return this->Span_.To -
+         (this->Span_.To - this->Span_.From) * std::exp(-ProgressRate * this->Done_);
 }
 
 void BatchSweeps::Restart()

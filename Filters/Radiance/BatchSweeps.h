@@ -51,6 +51,8 @@ public:
   /// Sweeps drawn in all, and those that the sums hold.
   int Done() const { return this->Done_; }
   int Counted() const { return this->States_.front().Counted; }
+  /// Where they have brought the progress bar.
+  double Reached() const;
   /// What completes them where smoke scatters often; else none.
   const std::optional<Completion>& Diffusion() const { return this->Completion_; }
   /// Whether that leads nowhere.

@@ -13,10 +13,12 @@ namespace
 
 /// A triangle as large as this share of its distance to the light is split, as often as it takes;
 /// right before a plate light changes over some share of the plate's size. Below the smaller share
-/// one point does.
+/// one point does; of the parts of a triangle that a shadow's edge runs through, below the
+/// smallest.
 constexpr double TriangleRatio = 0.5;
 constexpr double PlateShare = 0.25;
 constexpr double TrianglePointRatio = 0.1;
+constexpr double PartPointRatio = 0.025;
 constexpr int MostSplits = 14;
 /// How often one is split, in all, that the edge of a shadow runs through.
 constexpr int ShadowSplits = 4;
@@ -64,7 +66,7 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
   }
   // Three points are exact for a quadratic (Strang and Fix).
   std::array<Vec3, 3> points;
-  const int count = size < TrianglePointRatio * distance ? 1 : 3;
+  const int count = size < (level == 0 ? TrianglePointRatio : PartPointRatio) * distance ? 1 : 3;
   for (int i = 0; i < count; ++i)
   {
     points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);

@@ -228,24 +228,24 @@ void MultipleSolve::Band(int band)
     return;
   }
   const double part = (1.0 - this->From_) / this->Field_.Bands;
-  const double from = this->From_ + part * band;
+  const double begin = this->From_ + part * band;
+  const double end = begin + SweepShare * part;
   std::optional<BatchSweeps> drawn;
-  const auto settle = [&]
+  const auto settle = [&](double from)
   {
     drawn.emplace(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
-      this->Team_, this->Arena_, this->Progress_,
-      BatchSweeps::ProgressSpan{from, from + SweepShare * part});
+      this->Team_, this->Arena_, this->Progress_, BatchSweeps::ProgressSpan{from, end});
     Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
       this->Arena_, *drawn)
       .Run();
   };
-  settle();
+  settle(begin);
   if (drawn->Diverges())
   {
     this->Say(name + "sweeps given up", drawn->Done(),
       "diffusion does not complete this light: sweeps alone build it up");
     sweep->LeaveOutBlocks();
-    settle();
+    settle(drawn->Reached());
   }
   BatchSweeps& sweeps = *drawn;
   const int settling = sweeps.Done() - sweeps.Counted();

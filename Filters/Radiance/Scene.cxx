@@ -103,6 +103,27 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
   return mesh;
 }
 
+/// Leaves one of triangles with the same corners.
+void RemoveRepeats(std::vector<Triangle>& triangles)
+{
+  if (triangles.size() < 2)
+  {
+    return;
+  }
+  std::set<std::array<std::array<double, 3>, 3>> known;
+  std::erase_if(triangles,
+    [&known](const Triangle& corners)
+    {
+      std::array<std::array<double, 3>, 3> sorted;
+      std::transform(corners.begin(), corners.end(), sorted.begin(),
+        [](const Vec3& corner) {
+          return std::array{corner.x, corner.y, corner.z};
+        });
+      std::sort(sorted.begin(), sorted.end());
+      return !known.insert(sorted).second;
+    });
+}
+
 } // namespace
 
 Scene::Scene(SceneDescription description, const Scene* earlier)
@@ -195,21 +216,18 @@ const OpenFaces& Scene::Open() const
 std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
 {
   std::vector<std::vector<Triangle>> patches(scene.Patches());
-  std::vector<std::set<std::array<std::array<double, 3>, 3>>> known(scene.Patches());
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners)
     {
-      std::array<std::array<double, 3>, 3> sorted;
-      std::transform(corners.begin(), corners.end(), sorted.begin(),
-        [](const Vec3& corner) {
-          return std::array{corner.x, corner.y, corner.z};
-        });
-      std::sort(sorted.begin(), sorted.end());
-      if (AreaOf(corners) > 0.0 && known[patch].insert(sorted).second)
+      if (AreaOf(corners) > 0.0)
       {
         patches[patch].push_back(corners);
       }
     });
+  for (std::vector<Triangle>& triangles : patches)
+  {
+    RemoveRepeats(triangles);
+  }
   return patches;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ReferenceIntegrator.h"
+#include "RisingProgress.h"
 #include "View.h"
 
 #include <cmath>
@@ -23,7 +24,7 @@ public:
     options.Tolerance = tolerance;
     options.Seed = seed;
     options.Threads = threads;
-    Progress progress;
+    RisingProgress progress;
     this->Field =
       std::make_shared<const LightField>(SolveLightField(*this->TheScene, options, progress));
     this->TheView = std::make_unique<const View>(this->TheScene, this->Field);
