@@ -189,14 +189,14 @@ private:
     /// Whether what is told may be off by more than differences from cell to cell would bear.
     bool Rough = false;
   };
-  /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
-  /// gets dark beside that face: its centre then tells nothing of what it gets.
-  bool Enters(const LightGroup& root, const Medium::Block& block) const;
   /// That bound; infinite where there is none.
   /// @param extinction smallest mean along the ways [1/m]
   /// @param rough error of their optical depths
   double LargestShare(const LightGroup& root, const Medium::Block& block, double extinction,
     double rough, const std::vector<Spectrum>& sums) const;
+  /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
+  /// gets dark beside that face: its centre then tells nothing of what it gets.
+  bool Enters(const LightGroup& root, const Medium::Block& block) const;
   /// None where the light is not far. The less a light may add to what the cells hold, the rougher
   /// its ways may be told.
   /// @param whole whether ways are walked where they are not told; else there are none then
