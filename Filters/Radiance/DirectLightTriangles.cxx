@@ -59,7 +59,8 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, level + 1, quarter, sum);
     this->AddTriangle(light, middle, normal, level + 1, quarter, sum);
   };
-  if (level < MostSplits && size > TriangleRatio * std::max(distance, PlateShare * root.Radius))
+  const double plate = PlateShare * root.Radius * root.Law.Sharpness();
+  if (level < MostSplits && size > TriangleRatio * std::max(distance, plate))
   {
     splitAll();
     return;
