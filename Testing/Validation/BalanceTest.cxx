@@ -1,5 +1,4 @@
-// Conservation of energy, reciprocity, proportionality and superposition.
-#include "Contrast.h"
+// Conservation of energy and reciprocity.
 #include "ReferenceIntegrator.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
@@ -15,28 +14,9 @@ namespace
 
 using namespace smokevis;
 
-/// A closed room with heterogeneous smoke, a block, a hanging lamp and a sign mounted on a wall.
-SceneDescription FurnishedRoom(double albedo, double extinction)
-{
-  SceneDescription scene;
-  scene.Albedo = albedo;
-  const Vec3 upper(4, 3, 2.5);
-  if (extinction > 0.0)
-  {
-    scene.Grids = {
-      scenes::NoisySmoke(Vec3(0.0), upper, {24, 18, 15}, 0.5 * extinction, 1.5 * extinction, 2)};
-  }
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, 0.5);
-  scenes::AddBlock(scene.Surfaces, {1.5, 1, 0}, {2, 1.5, 1}, 0.25, 0.3);
-  scene.Emitters =
-    scenes::Barcode({4, 1.5, 1.875}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.25, 5, 100.0, 0, 0.1);
-  scene.Emitters.push_back(scenes::Plate({1, 1, 2}, {0, 0, -1}, {1, 0, 0}, 0.5, 0.5, 20.0, 0.6));
-  return scene;
-}
-
 void CheckBalance(const std::string& name, double albedo, double extinction)
 {
-  const Solved solved(FurnishedRoom(albedo, extinction));
+  const Solved solved(scenes::FurnishedRoom(albedo, extinction));
   const double emitted = solved.TheScene->Lights().Flux(0);
   const Estimate smoke = solved.AbsorbedInSmoke();
   const Estimate surfaces = solved.AbsorbedOnSurfaces();
@@ -410,122 +390,6 @@ TEST(Balance, ReciprocityOfTwoPatches)
   const Estimate home = back.Illuminance({first}, 0);
   report::Relative("in all", areaOfFirst * home.Mean, areaOfSecond * forth.Mean, 0.01,
     std::hypot(areaOfFirst * home.StandardError, areaOfSecond * forth.StandardError));
-}
-
-/// Largest difference of values from what they should be, both by place, over what they should be.
-/// @param least that this counts for; where it should be 0 and this is, too, the value has to be
-template <class Value, class Expected>
-double LargestDifference(
-  std::size_t count, double least, const Value& value, const Expected& expected)
-{
-  double worst = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double difference = std::abs(value(i) - expected(i));
-    EXPECT_TRUE(std::isfinite(difference)) << i;
-    const double size = std::max(std::abs(expected(i)), least);
-    if (size > 0.0)
-    {
-      worst = std::max(worst, difference / size);
-    }
-    else
-    {
-      EXPECT_EQ(value(i), 0.0);
-    }
-  }
-  return worst;
-}
-
-// Lights that are so many times as bright make everything so many times as bright, whatever way the
-// light took: the same lines are drawn, and but for twenty roundings to float, of a mean value
-// or of what is brighter, nothing differs.
-TEST(Balance, Proportionality)
-{
-  constexpr double Times = 3.7e3;
-  constexpr double Roundings = 20.0 * 6e-8;
-  report::Head("Lights " + std::to_string(Times) + " times as bright, largest relative changes");
-  const SceneDescription plain = FurnishedRoom(0.6, 0.5);
-  SceneDescription bright = plain;
-  for (EmitterCell& cell : bright.Emitters)
-  {
-    for (double& luminance : cell.Luminance)
-    {
-      luminance *= Times;
-    }
-  }
-  const Solved one(plain, 0.03);
-  const Solved many(bright, 0.03);
-  const auto compare = [](const char* name, const auto& a, const auto& b, const auto& number)
-  {
-    double mean = 0.0;
-    for (const auto& value : a)
-    {
-      mean += Times * number(value) / static_cast<double>(a.size());
-    }
-    report::Absolute(name, 0.0,
-      LargestDifference(
-        a.size(), mean, [&](std::size_t i) { return number(b[i]); },
-        [&](std::size_t i) { return Times * number(a[i]); }),
-      Roundings);
-  };
-  const auto itself = [](float value) { return static_cast<double>(value); };
-  const auto mean = [](const Lanes& value) { return Mean(value); };
-  const auto error = [](const Lanes& value) { return StandardError(value); };
-  compare("direct fluence", one.Field->DirectFluence, many.Field->DirectFluence, itself);
-  compare(
-    "direct illuminance", one.Field->DirectIlluminance, many.Field->DirectIlluminance, itself);
-  compare("multiple fluence", one.Field->MultipleFluence, many.Field->MultipleFluence, mean);
-  compare("its errors", one.Field->MultipleFluence, many.Field->MultipleFluence, error);
-  compare(
-    "multiple illuminance", one.Field->MultipleIlluminance, many.Field->MultipleIlluminance, mean);
-  const Vec3 eye(0.8, 1.4, 1.7);
-  const SignMeasurement a = MeasureSign(*one.TheView, 0, eye, Observer{0.0});
-  const SignMeasurement b = MeasureSign(*many.TheView, 0, eye, Observer{0.0});
-  report::Relative("mean luminance", Times * a.MeanLuminance, b.MeanLuminance, Roundings);
-  report::Relative("contrast", a.Contrast, b.Contrast, Roundings);
-}
-
-// The direct parts of two lights add up to float rounding: each is computed on its own.
-TEST(Balance, Superposition)
-{
-  report::Head("Superposition of a sign and a lamp");
-  const SceneDescription both = FurnishedRoom(0.6, 0.5);
-  SceneDescription sign = both;
-  sign.Emitters.back().Luminance = {};
-  SceneDescription lamp = both;
-  for (std::size_t cell = 0; cell + 1 < lamp.Emitters.size(); ++cell)
-  {
-    lamp.Emitters[cell].Luminance = {};
-  }
-  const Solved solvedBoth(both);
-  const Solved solvedSign(sign);
-  const Solved solvedLamp(lamp);
-  const auto largestChange =
-    [](const std::vector<float>& sum, const std::vector<float>& a, const std::vector<float>& b)
-  {
-    return LargestDifference(
-      sum.size(), 0.0, [&](std::size_t i) { return static_cast<double>(sum[i]); },
-      [&](std::size_t i) { return static_cast<double>(a[i]) + b[i]; });
-  };
-  // Three roundings to float, each of at most 6e-8.
-  report::Absolute("direct fluence", 0.0,
-    largestChange(solvedBoth.Field->DirectFluence, solvedSign.Field->DirectFluence,
-      solvedLamp.Field->DirectFluence),
-    3e-7);
-  report::Absolute("direct illuminance", 0.0,
-    largestChange(solvedBoth.Field->DirectIlluminance, solvedSign.Field->DirectIlluminance,
-      solvedLamp.Field->DirectIlluminance),
-    3e-7);
-  std::vector<std::int64_t> cells(solvedBoth.TheScene->Smoke().Cells());
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
-  {
-    cells[cell] = static_cast<std::int64_t>(cell);
-  }
-  const Estimate sum = solvedBoth.Fluence(cells);
-  const Estimate a = solvedSign.Fluence(cells);
-  const Estimate b = solvedLamp.Fluence(cells);
-  report::Relative("mean fluence", a.Mean + b.Mean, sum.Mean, 1e-3,
-    std::hypot(std::hypot(a.StandardError, b.StandardError), sum.StandardError));
 }
 
 } // namespace

@@ -336,6 +336,24 @@ EmitterCell TunnelLamp(double x)
 }
 
 //--------------------------------------------------------------------------------------------------
+SceneDescription FurnishedRoom(double albedo, double extinction)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 upper(4, 3, 2.5);
+  if (extinction > 0.0)
+  {
+    scene.Grids = {
+      NoisySmoke(Vec3(0.0), upper, {24, 18, 15}, 0.5 * extinction, 1.5 * extinction, 2)};
+  }
+  AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.25, 0.5);
+  AddBlock(scene.Surfaces, {1.5, 1, 0}, {2, 1.5, 1}, 0.25, 0.3);
+  scene.Emitters = Barcode({4, 1.5, 1.875}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.25, 5, 100.0, 0, 0.1);
+  scene.Emitters.push_back(Plate({1, 1, 2}, {0, 0, -1}, {1, 0, 0}, 0.5, 0.5, 20.0, 0.6));
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
 Slab MakeSlab(double opticalDepth, double albedo, int layers)
 {
   // Light that reaches the middle from beyond the margin has crossed eight mean free paths of

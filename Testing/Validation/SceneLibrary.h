@@ -74,6 +74,10 @@ inline const Vec3 TunnelEye{0.001, 0.5, 0.5};
 /// A lamp of 0.2 x 0.2 m and luminance 1 under the tunnel's ceiling.
 EmitterCell TunnelLamp(double x);
 
+/// A closed room with heterogeneous smoke, a block, a hanging lamp and a sign mounted on a wall.
+/// The lamp is the last emitter.
+SceneDescription FurnishedRoom(double albedo, double extinction);
+
 /// A slab between z = 0 (emitting black wall of luminance 1/pi, so that the incident illuminance is
 /// 1) and z = 1 (black patches), open at its sides, and so wide that these do not matter in the
 /// middle.
