@@ -67,6 +67,18 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
 
 } // namespace
 
+double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) const
+{
+  if (receiver.Clear)
+  {
+    return 1.0;
+  }
+  const Vec3& point = receiver.Point;
+  return group.Radius < 0.05 * glm::length(group.Centre - point)
+           ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
+           : this->VisibleShare(group, point);
+}
+
 double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
 {
   const Geometry& shapes = this->Scene_.Shapes();
@@ -159,26 +171,14 @@ double DirectLight::Depth(const Receiver& receiver, const Vec3& place) const
 
 DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receiver& receiver) const
 {
-  const Vec3& point = receiver.Point;
-  const Vec3 to = group.Centre - point;
-  const double distance = glm::length(to);
+  const double distance = glm::length(group.Centre - receiver.Point);
   if (!(distance > 0.0))
   {
     return {0.0, 1.0};
   }
   const double depth = this->Depth(receiver, group.Centre);
-  double visible = 1.0;
-  if (depth * this->Scene_.SmallestScale() > DeepestDepth)
-  {
-    visible = 0.0;
-  }
-  else if (!receiver.Clear)
-  {
-    visible = group.Radius < 0.05 * distance
-                ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
-                : this->VisibleShare(group, point);
-  }
-  return {depth / distance, visible};
+  const bool dark = depth * this->Scene_.SmallestScale() > DeepestDepth;
+  return {depth / distance, dark ? 0.0 : this->Visible(group, receiver)};
 }
 
 void DirectLight::AddPoint(

@@ -112,7 +112,9 @@ private:
     double Visible;
   };
 
-  /// Share of a group that is not hidden from a point.
+  /// Share of a group that is not hidden from a receiver; of a small one all or nothing.
+  double Visible(const LightGroup& group, const Receiver& receiver) const;
+  /// Share of a group that is not hidden from a point, place by place.
   double VisibleShare(const LightGroup& group, const Vec3& point) const;
   /// The ways to a light, where they are few enough to stand for all.
   std::optional<Ways> WaysTo(const LightGroup& root, const Vec3& point) const;
@@ -173,6 +175,20 @@ private:
   /// Whether light comes to the box's cell from smoke of another density: ways to places in the box
   /// do not follow one another, then.
   bool BehindBorder(const BoxLight& light) const;
+  /// A place in a box, for Gauss quadrature over it.
+  struct GaussPlace;
+  /// So many places along each edge of a box (1 to 3).
+  static std::vector<GaussPlace> GaussPlaces(
+    const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders);
+  /// Whether places in a box differ from its centre as they would before a point: that the light is
+  /// no point matters as much at one of them as at another, then.
+  bool Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
+    const std::vector<GaussPlace>& places) const;
+  /// Mean over a box before such a light.
+  /// @param visible share of the light that is not hidden from the box
+  /// @param extinction mean along some way between the box and the light [1/m]
+  Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double visible,
+    double extinction, const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;

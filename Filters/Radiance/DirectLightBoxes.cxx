@@ -9,9 +9,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis
 {
+
+struct DirectLight::GaussPlace
+{
+  Vec3 Point;
+  double Weight;
+  /// Optical depth at 633 nm between it and the light's centre, where that is known.
+  double Depth = 0.0;
+};
 
 namespace
 {
@@ -28,14 +37,18 @@ double MeanAttenuation(double x, double shift)
   return std::exp(LogarithmOfMean(x) - x * shift);
 }
 
-struct GaussPlace
+/// What a light that were a point would send along a way, over its luminous intensity.
+double PointLight(const LightGroup& light, const Vec3& way)
 {
-  Vec3 Point;
-  double Weight;
-};
+  const double square = glm::dot(way, way);
+  const double distance = std::sqrt(square);
+  const double cosine = glm::dot(way, light.Normal) / distance;
+  return cosine / square * light.Law.Relative(way / distance, cosine);
+}
 
-/// Gauss places in a box, so many along each edge (1 to 3).
-std::vector<GaussPlace> GaussPlaces(
+} // namespace
+
+std::vector<DirectLight::GaussPlace> DirectLight::GaussPlaces(
   const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders)
 {
   constexpr std::array<std::array<double, 3>, 3> nodes = {
@@ -58,17 +71,6 @@ std::vector<GaussPlace> GaussPlaces(
     });
   return places;
 }
-
-/// What a light that were a point would send along a way, over its luminous intensity.
-double PointLight(const LightGroup& light, const Vec3& way)
-{
-  const double square = glm::dot(way, way);
-  const double distance = std::sqrt(square);
-  const double cosine = glm::dot(way, light.Normal) / distance;
-  return cosine / square * light.Law.Relative(way / distance, cosine);
-}
-
-} // namespace
 
 Spectrum DirectLight::Fluence(
   const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const
@@ -231,7 +233,8 @@ Spectrum DirectLight::GradedFluence(
   // Slabs from the faces that light comes in through, each half as thick as the one behind it,
   // until the first is thin; without such faces across the axis along which ways deepen most.
   const double scale = this->Scene_.LargestScale();
-  const Vec3 from = centre - this->Scene_.Lights().Root(light.Index).Centre;
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Vec3 from = centre - root.Centre;
   const Vec3 within = glm::abs(light.Ways.Slope) * size * scale;
   const Vec3 entering = light.Ways.Entry * size * scale;
   const bool enters = LargestEdge(entering) >= TwoPointDepth;
@@ -249,7 +252,7 @@ Spectrum DirectLight::GradedFluence(
     const bool flat = depth < 2.0 * FlatDepth && size[axis] < FlatRatio * glm::length(from);
     orders[axis] = !graded && flat ? 1 : 2;
   }
-  Spectrum sum{};
+  std::vector<GaussPlace> places;
   ForEachPlace(slabs,
     [&](const std::array<int, 3>& slab)
     {
@@ -267,14 +270,74 @@ Spectrum DirectLight::GradedFluence(
       }
       for (const GaussPlace& place : GaussPlaces(middle, extent, orders))
       {
-        const Spectrum value = this->Fluence(light, place.Point, std::nullopt);
-        for (int band = 0; band < this->Scene_.Bands(); ++band)
-        {
-          sum[band] += share * place.Weight * value[band];
-        }
+        places.push_back({place.Point, share * place.Weight});
       }
     });
-  return sum;
+  if (!this->Pointlike(light, centre, size, places))
+  {
+    Spectrum sum{};
+    for (const GaussPlace& place : places)
+    {
+      const Spectrum value = this->Fluence(light, place.Point, std::nullopt);
+      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      {
+        sum[band] += place.Weight * value[band];
+      }
+    }
+    return sum;
+  }
+  const double visible = this->Visible(root, {centre, std::nullopt, light.Clear});
+  if (visible == 0.0)
+  {
+    return {};
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (GaussPlace& place : places)
+  {
+    const Vec3 to = root.Centre - place.Point;
+    const double distance = glm::length(to);
+    place.Depth = this->Scene_.Smoke().OpticalDepth(place.Point, to / distance, 0.0, distance);
+    least = std::min(least, place.Depth);
+  }
+  // Beyond the least depth light is only dimmed, however deep the smoke.
+  return this->PointlikeMean(light, centre, visible, least / glm::length(from), places);
+}
+
+bool DirectLight::Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
+  const std::vector<GaussPlace>& places) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Vec3 from = centre - root.Centre;
+  const double atCentre = PointLight(root, from);
+  return root.Radius * root.Law.Sharpness() < PathRatio * glm::length(from) && root.Plane() &&
+         glm::dot(from, root.Normal) > glm::dot(glm::abs(root.Normal), size) &&
+         std::all_of(places.begin(), places.end(),
+           [&](const GaussPlace& place)
+           { return SteadyShare * PointLight(root, place.Point - root.Centre) < atCentre; });
+}
+
+Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, double visible,
+  double extinction, const std::vector<GaussPlace>& places) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const Vec3 from = centre - root.Centre;
+  const double depth = extinction * glm::length(from);
+  const double atCentre = PointLight(root, from);
+  Spectrum mean{};
+  for (const GaussPlace& place : places)
+  {
+    const double weight = place.Weight * PointLight(root, place.Point - root.Centre) / atCentre;
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * (place.Depth - depth));
+    }
+  }
+  Spectrum value = this->Fluence(light.Index, Receiver{centre, std::nullopt, true, {}, extinction});
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    value[band] *= visible * mean[band];
+  }
+  return value;
 }
 
 bool DirectLight::BehindBorder(const BoxLight& light) const
@@ -289,7 +352,7 @@ Spectrum DirectLight::GaussFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const int order = this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
-  const std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
+  std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
   Spectrum sum{};
   const bool even = !this->BehindBorder(light);
   if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))
@@ -316,45 +379,19 @@ Spectrum DirectLight::GaussFluence(
     return {};
   }
   const double depth = path.MeanExtinction * toCentre;
-  const auto depthAt = [&](const Vec3& place)
-  { return std::max(0.0, depth + light.Ways.At(from, place - centre)); };
-  receiver.Clear = true;
-  const double height = glm::dot(from, root.Normal);
-  const auto steady = [&]
+  for (GaussPlace& place : places)
   {
-    return std::all_of(places.begin(), places.end(),
-      [&](const GaussPlace& place) {
-        return SteadyShare * PointLight(root, place.Point - root.Centre) < PointLight(root, from);
-      });
-  };
-  if (height > glm::dot(glm::abs(root.Normal), size) && root.Plane() && steady())
-  {
-    // That the light is no point matters as much at one place of the box as at another: places
-    // differ from the centre as they would before a point.
-    receiver.Extinction = path.MeanExtinction;
-    sum = this->Fluence(light.Index, receiver);
-    const double atCentre = PointLight(root, from);
-    Spectrum mean{};
-    for (const GaussPlace& place : places)
-    {
-      const Vec3 way = place.Point - root.Centre;
-      const double weight = place.Weight * PointLight(root, way) / atCentre;
-      const double further = depthAt(place.Point) - depth;
-      for (int band = 0; band < this->Scene_.Bands(); ++band)
-      {
-        mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * further);
-      }
-    }
-    for (int band = 0; band < this->Scene_.Bands(); ++band)
-    {
-      sum[band] *= path.Visible * mean[band];
-    }
-    return sum;
+    place.Depth = std::max(0.0, depth + light.Ways.At(from, place.Point - centre));
   }
+  if (this->Pointlike(light, centre, size, places))
+  {
+    return this->PointlikeMean(light, centre, path.Visible, path.MeanExtinction, places);
+  }
+  receiver.Clear = true;
   for (const GaussPlace& place : places)
   {
     receiver.Point = place.Point;
-    receiver.Extinction = depthAt(place.Point) / glm::length(root.Centre - place.Point);
+    receiver.Extinction = place.Depth / glm::length(root.Centre - place.Point);
     const Spectrum value = this->Fluence(light.Index, receiver);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
