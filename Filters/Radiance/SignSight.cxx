@@ -1,6 +1,7 @@
 #include "SignSight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -12,6 +13,14 @@ namespace
 
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
+/// A block over which the optical depth from the eye changes by more than this is halved, so often
+/// at most: its middle stands for all of it, to the square of the change over 12.
+constexpr double LargestChange = 0.1;
+constexpr int MostHalvings = 5;
+/// Optical depth beyond which nothing is seen of a block, however bright.
+constexpr double DeepestBlock = 40.0;
+/// Where along the other edge the depth is looked at.
+constexpr std::array<double, 2> Lines = {0.25, 0.75};
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
 constexpr int MostPixels = 512;
 /// Signs of more facets are not cut at edges: their facets are small.
@@ -119,7 +128,59 @@ PlateBorders SignSight::Borders() const
   const double width = glm::length(this->EdgeU_);
   const double height = glm::length(this->EdgeV_);
   const double largest = std::max(width, height) / BlocksAcross;
-  return {BlockBorders(this->Across_, largest / width), BlockBorders(this->Up_, largest / height)};
+  return {this->CutBySmoke(BlockBorders(this->Across_, largest / width), 0),
+    this->CutBySmoke(BlockBorders(this->Up_, largest / height), 1)};
+}
+
+std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, int axis) const
+{
+  using Depths = std::array<double, Lines.size()>;
+  const Scene& scene = this->View_.TheScene();
+  const auto depthsAt = [&](double border)
+  {
+    Depths depths;
+    std::transform(Lines.begin(), Lines.end(), depths.begin(),
+      [&](double line)
+      {
+        const Vec3 to =
+          OnPlate(this->Plate_, axis == 0 ? border : line, axis == 0 ? line : border) - this->Eye_;
+        const double distance = glm::length(to);
+        return distance > 0.0 ? scene.LargestScale() * scene.Smoke().OpticalDepth(
+                                                         this->Eye_, to / distance, 0.0, distance)
+                              : 0.0;
+      });
+    return depths;
+  };
+  std::vector<double> cut = {borders[0]};
+  // Halves what lies between two borders where that is too much, and adds the borders after the
+  // first.
+  const auto add = [&](const auto& self, double from, const Depths& first, double to,
+                     const Depths& last, int halvings) -> void
+  {
+    const double middle = 0.5 * (from + to);
+    const Depths within = halvings > 0 ? depthsAt(middle) : first;
+    bool uneven = false;
+    for (std::size_t line = 0; line < Lines.size() && halvings > 0; ++line)
+    {
+      const auto [least, most] = std::minmax({first[line], within[line], last[line]});
+      uneven = uneven || (most - least > LargestChange && least < DeepestBlock);
+    }
+    if (!uneven)
+    {
+      cut.push_back(to);
+      return;
+    }
+    self(self, from, first, middle, within, halvings - 1);
+    self(self, middle, within, to, last, halvings - 1);
+  };
+  Depths last = depthsAt(borders[0]);
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+  {
+    const Depths next = depthsAt(borders[i + 1]);
+    add(add, borders[i], last, borders[i + 1], next, MostHalvings);
+    last = next;
+  }
+  return cut;
 }
 
 PlatePattern SignSight::PatternOf(

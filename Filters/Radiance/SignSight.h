@@ -56,6 +56,9 @@ public:
 
 private:
   PlateBorders Borders() const;
+  /// Borders along an edge (0: across, 1: up), and more where the smoke before the plate dims it
+  /// more at one border than at the next.
+  std::vector<double> CutBySmoke(const std::vector<double>& borders, int axis) const;
   std::array<int, 2> Pixels(double acuity) const;
   PlatePattern PatternOf(
     const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const;

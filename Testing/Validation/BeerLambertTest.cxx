@@ -1,9 +1,12 @@
 // Attenuation through many cells of different smoke: an analytic sum.
+#include "Contrast.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
 
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -61,6 +64,74 @@ TEST(BeerLambert, SignThroughHeterogeneousSmoke)
     const std::string name = "ray " + std::to_string(i);
     report::Relative(name + " optical depth", depth, light.OpticalDepth, 1e-6);
     report::Relative(name + " luminance", 100.0 * std::exp(-depth), light.Total(), 1e-6);
+  }
+}
+
+/// Standard deviation over mean of what is seen of a sign through smoke that sends on nothing, by
+/// solid angle over many places of each of its cells; and the mean [cd/m2].
+std::array<double, 2> SeenThrough(const SceneDescription& scene, const Vec3& eye)
+{
+  constexpr int Places = 40;
+  double solid = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (const EmitterCell& cell : scene.Emitters)
+  {
+    const Vec3 along = cell.Vertices[1] - cell.Vertices[0];
+    const Vec3 up = cell.Vertices[3] - cell.Vertices[0];
+    const Vec3 normal = glm::cross(along, up);
+    for (int i = 0; i < Places; ++i)
+    {
+      for (int j = 0; j < Places; ++j)
+      {
+        const Vec3 place = cell.Vertices[0] + (i + 0.5) / Places * along + (j + 0.5) / Places * up;
+        const double distance = glm::length(place - eye);
+        const double weight = std::abs(glm::dot(normal, place - eye)) / std::pow(distance, 3.0);
+        const double luminance =
+          cell.Luminance[0] * std::exp(-AnalyticDepth(scene.Grids[0], eye, place));
+        solid += weight;
+        first += weight * luminance;
+        second += weight * luminance * luminance;
+      }
+    }
+  }
+  const double mean = first / solid;
+  return {std::sqrt(second / solid - mean * mean) / mean, mean};
+}
+
+// At the edge of a layer smoke dims one row of a sign much more than the next. What is asked of
+// contrasts at any place is asked here, too.
+TEST(BeerLambert, SignAtTheEdgeOfALayer)
+{
+  report::Head("Contrast and mean luminance of a sign at the edge of a layer, by Beer-Lambert");
+  constexpr int Layers = 30;
+  for (const double extinction : {1.0, 2.0, 4.0})
+  {
+    for (const double edge : {1.9, 2.1, 2.2})
+    {
+      SceneDescription scene;
+      scene.Albedo = 0.0;
+      scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(12, 4, 3), {1, 1, Layers}, 0.0)};
+      for (int layer = 0; layer < Layers; ++layer)
+      {
+        const double height = 3.0 * (layer + 0.5) / Layers;
+        scene.Grids[0].Extinction[layer] =
+          static_cast<float>(0.05 + extinction / (1.0 + std::exp(-(height - edge) / 0.1)));
+      }
+      scene.Emitters = scenes::Barcode({12, 2, 2.2}, {-1, 0, 0}, {0, 0, 1}, 0.4, 0.2, 5, 200.0, 0);
+      const Solved solved(scene);
+      for (const double x : {3.0, 9.0})
+      {
+        const Vec3 eye(x, 1.5, 1.7);
+        const auto [contrast, mean] = SeenThrough(scene, eye);
+        const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
+        const std::string name = std::to_string(extinction).substr(0, 1) + " per m from " +
+                                 std::to_string(edge).substr(0, 3) + " m, from " +
+                                 std::to_string(12.0 - x).substr(0, 1) + " m off: ";
+        report::Absolute(name + "contrast", contrast, sign.Contrast, 0.005);
+        report::Relative(name + "mean", mean, sign.MeanLuminance, 0.005);
+      }
+    }
   }
 }
 

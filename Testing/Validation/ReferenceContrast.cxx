@@ -17,8 +17,6 @@ Estimate ReferenceContrast(
   double sum = 0.0;
   double square = 0.0;
   double noise = 0.0;
-  double lit = 0.0;
-  double litNoise = 0.0;
   int points = 0;
   for (const std::size_t cell : scene.Lights().Signs()[sign].Cells)
   {
@@ -33,20 +31,18 @@ Estimate ReferenceContrast(
         const Vec3 at = corner[0] + u * (corner[1] - corner[0]) + v * (corner[3] - corner[0]);
         return Ray{eye, glm::normalize(at - eye)};
       };
-      const Estimate value =
-        reference.MeanRadiance(draw, samples, static_cast<std::uint64_t>(points));
-      const double variance = value.StandardError * value.StandardError;
-      sum += value.Mean;
-      square += value.Mean * value.Mean;
-      noise += variance;
-      lit = std::max(lit, value.Mean);
-      litNoise += variance;
+      const RayMoments seen =
+        reference.MomentsOfRadiance(draw, samples, static_cast<std::uint64_t>(points));
+      const double added = seen.Added.StandardError;
+      sum += seen.Radiance.Mean;
+      square += seen.Square.Mean + seen.Added.Mean * seen.Added.Mean - added * added;
+      noise += seen.Radiance.StandardError * seen.Radiance.StandardError;
     }
   }
   const double mean = sum / points;
-  const double spread = std::sqrt(std::max(0.0, (square - noise) / points - mean * mean));
+  const double spread = std::sqrt(std::max(0.0, square / points - mean * mean));
   // The contrast's error is that of the mean, and of the spread, both of independent points.
-  const double meanError = std::sqrt(litNoise) / points;
+  const double meanError = std::sqrt(noise) / points;
   const double contrast = spread / mean;
   return {contrast, meanError / mean * std::hypot(1.0, contrast)};
 }

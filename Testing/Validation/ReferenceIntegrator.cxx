@@ -87,13 +87,17 @@ ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, int band)
 }
 
 //--------------------------------------------------------------------------------------------------
-template <class Sample>
-Estimate ReferenceIntegrator::Run(
+template <std::size_t Values, class Sample>
+std::array<Estimate, Values> ReferenceIntegrator::RunAll(
   std::uint64_t samples, std::uint64_t seed, const Sample& sample) const
 {
+  struct Sums
+  {
+    std::array<double, Values> First{};
+    std::array<double, Values> Second{};
+  };
   const std::uint64_t chunks = (samples + ChunkSize - 1) / ChunkSize;
-  std::vector<double> sums(chunks, 0.0);
-  std::vector<double> squares(chunks, 0.0);
+  std::vector<Sums> parts(chunks);
   tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, chunks, 1),
     [&](const tbb::blocked_range<std::uint64_t>& range)
     {
@@ -104,23 +108,41 @@ Estimate ReferenceIntegrator::Run(
         const std::uint64_t end = std::min(samples, (chunk + 1) * ChunkSize);
         for (std::uint64_t i = chunk * ChunkSize; i < end; ++i)
         {
-          const double value = sample(random, flight);
-          sums[chunk] += value;
-          squares[chunk] += value * value;
+          const std::array<double, Values> values = sample(random, flight);
+          for (std::size_t value = 0; value < Values; ++value)
+          {
+            parts[chunk].First[value] += values[value];
+            parts[chunk].Second[value] += values[value] * values[value];
+          }
         }
       }
     });
-  double sum = 0.0;
-  double square = 0.0;
-  for (std::uint64_t chunk = 0; chunk < chunks; ++chunk)
-  {
-    sum += sums[chunk];
-    square += squares[chunk];
-  }
+  std::array<Estimate, Values> estimates;
   const auto count = static_cast<double>(samples);
-  const double mean = sum / count;
-  const double variance = std::max(0.0, square / count - mean * mean);
-  return {mean, std::sqrt(variance / std::max(1.0, count - 1.0))};
+  for (std::size_t value = 0; value < Values; ++value)
+  {
+    double first = 0.0;
+    double second = 0.0;
+    for (const Sums& part : parts)
+    {
+      first += part.First[value];
+      second += part.Second[value];
+    }
+    const double mean = first / count;
+    const double variance = std::max(0.0, second / count - mean * mean);
+    estimates[value] = {mean, std::sqrt(variance / std::max(1.0, count - 1.0))};
+  }
+  return estimates;
+}
+
+//--------------------------------------------------------------------------------------------------
+template <class Sample>
+Estimate ReferenceIntegrator::Run(
+  std::uint64_t samples, std::uint64_t seed, const Sample& sample) const
+{
+  return this->RunAll<1>(samples, seed,
+    [&](Pcg32& random, Flight& flight)
+    { return std::array<double, 1>{sample(random, flight)}; })[0];
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -146,6 +168,23 @@ Estimate ReferenceIntegrator::MeanRadiance(
   return this->Run(samples, seed,
     [&](Pcg32& random, Flight& flight)
     { return this->RadianceSample(draw(random), false, random, flight); });
+}
+
+//--------------------------------------------------------------------------------------------------
+RayMoments ReferenceIntegrator::MomentsOfRadiance(
+  const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const
+{
+  const auto [radiance, added, square] = this->RunAll<3>(samples, seed,
+    [&](Pcg32& random, Flight& flight)
+    {
+      const Ray ray = draw(random);
+      this->Fly(ray, Vec3(0.0), flight);
+      const double seen = std::exp(-flight.OpticalDepth) * this->Arriving(ray, flight.End);
+      const double all = this->RadianceSample(ray, false, random, flight);
+      // (seen + added)^2 - added^2, in which the noise of what is added counts once.
+      return std::array<double, 3>{all, all - seen, seen * (2.0 * all - seen)};
+    });
+  return {radiance, added, square};
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -252,6 +291,12 @@ double ReferenceIntegrator::Emitted(const Ray& ray, const Hit& hit) const
 }
 
 //--------------------------------------------------------------------------------------------------
+double ReferenceIntegrator::Arriving(const Ray& ray, const Hit& hit) const
+{
+  return hit.Found() ? this->Emitted(ray, hit) : this->Scene_->Sky();
+}
+
+//--------------------------------------------------------------------------------------------------
 double ReferenceIntegrator::ReflectanceAt(const Hit& hit) const
 {
   const std::size_t cell = this->Scene_->Shapes().Cell(hit);
@@ -283,7 +328,7 @@ double ReferenceIntegrator::RadianceSample(
   double value = this->SmokeEmission(flight);
   if (!veilOnly)
   {
-    value += transmittance * this->Emitted(ray, end);
+    value += transmittance * this->Arriving(ray, end);
   }
 
   // Scattering on the line of sight. Half of the points follow the transmittance, half are uniform
@@ -355,6 +400,10 @@ double ReferenceIntegrator::Collect(Vertex vertex, Pcg32& random, Flight& flight
     {
       const double share = density / (density + this->LightDensity(ray, flight.End));
       sum += weight * share * std::exp(-flight.OpticalDepth) * emitted;
+    }
+    else if (!flight.End.Found())
+    {
+      sum += weight * std::exp(-flight.OpticalDepth) * this->Scene_->Sky();
     }
     sum += weight * this->SmokeEmission(flight);
 

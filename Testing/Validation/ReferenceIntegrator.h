@@ -4,6 +4,8 @@
 
 #include "Scene.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -34,6 +36,15 @@ struct Estimate
   double StandardError = 0.0;
 };
 
+/// What rays show of emitters, exactly, and what smoke and surfaces add to it by scattering.
+struct RayMoments
+{
+  Estimate Radiance;
+  Estimate Added;
+  /// Mean square of the radiance less that of what is added.
+  Estimate Square;
+};
+
 struct Ray
 {
   Vec3 Origin{0.0};
@@ -55,6 +66,9 @@ public:
   Estimate Veil(const Ray& ray, std::uint64_t samples, std::uint64_t seed) const;
   /// Mean of the radiance over rays drawn by the caller, one a sample.
   Estimate MeanRadiance(
+    const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const;
+  /// The same with what tells of the variance over the rays.
+  RayMoments MomentsOfRadiance(
     const std::function<Ray(Pcg32&)>& draw, std::uint64_t samples, std::uint64_t seed) const;
   /// Fluence at a point [lx].
   Estimate Fluence(const Vec3& point, std::uint64_t samples, std::uint64_t seed) const;
@@ -94,6 +108,10 @@ private:
     std::vector<Segment> Pieces;
   };
 
+  /// Means of what a sample gives.
+  template <std::size_t Values, class Sample>
+  std::array<Estimate, Values> RunAll(
+    std::uint64_t samples, std::uint64_t seed, const Sample& sample) const;
   template <class Sample>
   Estimate Run(std::uint64_t samples, std::uint64_t seed, const Sample& sample) const;
 
@@ -106,6 +124,8 @@ private:
   double DistanceAt(const Flight& flight, double opticalDepth) const;
   double SmokeEmission(const Flight& flight) const;
   double Emitted(const Ray& ray, const Hit& hit) const;
+  /// What comes from the end of a ray without having been scattered: of an emitter, or of the sky.
+  double Arriving(const Ray& ray, const Hit& hit) const;
   double ReflectanceAt(const Hit& hit) const;
   Vertex SurfaceVertex(const Ray& ray, const Hit& hit) const;
 

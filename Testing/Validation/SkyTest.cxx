@@ -48,16 +48,14 @@ TEST(Sky, Unhidden)
   report::Relative("fluence", 4.0 * Pi * Sky, air.Fluence(cells).Mean, 1e-3);
 }
 
-// What neither absorbs nor emits does not show under a sky that is the same all around: smoke of
-// albedo 1 and white walls, open at both ends, have the sky's luminance everywhere.
-TEST(Sky, Furnace)
+/// A tunnel of 2 x 1 x 1 m, open at both ends.
+SceneDescription OpenTunnel(double albedo, double reflectance, double patch, SmokeGrid smoke)
 {
-  report::Head("White tunnel, white smoke, open at both ends, under a sky of 1000 cd/m2");
   SceneDescription scene;
   scene.Sky = Sky;
-  scene.Albedo = 1.0;
-  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {12, 6, 6}, 0.8)};
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {2, 1, 1}, 0.25, 1.0);
+  scene.Albedo = albedo;
+  scene.Grids = {std::move(smoke)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {2, 1, 1}, patch, reflectance);
   // Without the walls at low and high x.
   SurfaceMesh& mesh = scene.Surfaces;
   for (std::size_t i = mesh.Triangles.size(); i-- > 0;)
@@ -69,7 +67,16 @@ TEST(Sky, Furnace)
       mesh.TriangleCell.erase(mesh.TriangleCell.begin() + static_cast<std::ptrdiff_t>(i));
     }
   }
-  const Solved solved(std::move(scene));
+  return scene;
+}
+
+// What neither absorbs nor emits does not show under a sky that is the same all around: smoke of
+// albedo 1 and white walls, open at both ends, have the sky's luminance everywhere.
+TEST(Sky, Furnace)
+{
+  report::Head("White tunnel, white smoke, open at both ends, under a sky of 1000 cd/m2");
+  const Solved solved(
+    OpenTunnel(1.0, 1.0, 0.25, scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {12, 6, 6}, 0.8)));
   std::vector<std::int64_t> cells(solved.TheScene->Smoke().Cells());
   for (std::size_t cell = 0; cell < cells.size(); ++cell)
   {
@@ -80,6 +87,35 @@ TEST(Sky, Furnace)
   report::Relative("mean fluence", 4.0 * Pi * Sky, fluence.Mean, 0.01, fluence.StandardError);
   const Estimate luminance = solved.Luminance({{1.9, 0.5, 0.5}, {-1, 0.1, 0.05}});
   report::Relative("luminance", Sky, luminance.Mean, 0.01, luminance.StandardError);
+}
+
+// The same with grey walls and noisy smoke against the path tracer, which is held to a closed form
+// first: unhidden, a layer that absorbs lets 2 pi L E3(1) through.
+TEST(Sky, GreyTunnel)
+{
+  report::Head("Daylight in a grey tunnel with noisy smoke, against the path tracer");
+  SceneDescription layer;
+  layer.Sky = Sky;
+  layer.Albedo = 0.0;
+  layer.Grids = {scenes::UniformSmoke({-500, -500, 0}, {500, 500, 1}, {1, 1, 1}, 1.0)};
+  scenes::AddRectangle(layer.Surfaces, {-500, -500, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, 0.0);
+  const Scene open(layer);
+  const Estimate through = ReferenceIntegrator(open).Illuminance({0, 0, 0}, {0, 0, 1}, 200000, 1);
+  report::Relative("the path tracer's light through a layer", 2.0 * Pi * Sky * E3(1.0),
+    through.Mean, 0.001, through.StandardError);
+
+  const Solved solved(OpenTunnel(
+    0.7, 0.5, 0.1, scenes::NoisySmoke(Vec3(0.0), Vec3(2, 1, 1), {12, 6, 6}, 0.2, 3.0, 3)));
+  const ReferenceIntegrator reference(*solved.TheScene);
+  for (const Vec3& towards : {Vec3(1.9, 0.2, 0.7), Vec3(1.0, 0.98, 0.3), Vec3(2.1, 0.5, 0.5)})
+  {
+    const Vec3 eye(0.9, 0.5, 0.45);
+    const Ray ray{eye, glm::normalize(towards - eye)};
+    const Estimate expected = reference.Radiance(ray, 400000, 2);
+    const Estimate value = solved.Luminance(ray);
+    report::Relative("luminance towards " + std::to_string(towards.x).substr(0, 3), expected.Mean,
+      value.Mean, 0.01, std::hypot(expected.StandardError, value.StandardError));
+  }
 }
 
 // Through smoke that absorbs: L exp(-K s) along a line, and under a wide layer of optical depth 1

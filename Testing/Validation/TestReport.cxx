@@ -81,6 +81,7 @@ void Absolute(
 {
   Row(name, reference, value, standardError);
   Judge(name, reference, value, tolerance + 3.0 * standardError);
+  EXPECT_LE(standardError, tolerance) << name << " is not known";
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ void Head(const std::string& caption);
 void Relative(const std::string& name, double reference, double value, double tolerance,
   double standardError = 0.0);
 
-/// The same with a tolerance in the values' own unit.
+/// The same with a tolerance in the values' own unit, which their standard error may not exceed.
 void Absolute(const std::string& name, double reference, double value, double tolerance,
   double standardError = 0.0);
 
