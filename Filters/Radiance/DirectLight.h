@@ -73,11 +73,13 @@ private:
   /// Cells are often just as deep as what follows: somewhat more, or rounding would decide.
   static constexpr double Aside = 1.0 + 1e-6;
   /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
-  /// two along each edge follow an exponential over a depth x to x^4 / 4320, three go farther.
+  /// two along each edge follow an exponential over a depth x to x^4 / 4320, and 1 / d^2 over a
+  /// share x of the distance to x^4 / 36, three go farther.
   /// Above the deepest nearly all light stays in the first part of the box.
   static constexpr double FlatDepth = 0.25 * Aside;
   static constexpr double FlatRatio = 0.2 * Aside;
   static constexpr double TwoPointDepth = 1.2 * Aside;
+  static constexpr double TwoPointRatio = 0.25 * Aside;
   static constexpr double DeepestGauss = 4.0 * Aside;
 
   /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
@@ -161,6 +163,10 @@ private:
   Spectrum CellFluence(BoxLight light) const;
   /// The same over what finer grids leave of the cell.
   Spectrum OwnFluence(const BoxLight& light, int splits) const;
+  /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
+  /// its light gets behind it.
+  static std::optional<Box> BeforePlate(
+    const LightGroup& root, const Vec3& centre, const Vec3& size);
   /// Mean over a box within the cell.
   /// @param splits how often it may be split
   Spectrum BoxFluence(

@@ -31,6 +31,9 @@ constexpr int MostSlabs = 24;
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
 
+/// How little a plate may lean against the faces of a box that it cuts in two.
+constexpr double Upright = 1e-6;
+
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
 double MeanAttenuation(double x, double shift)
 {
@@ -89,6 +92,27 @@ Spectrum DirectLight::Fluence(
            : this->Fluence(light.Index, point, light.Clear);
 }
 
+std::optional<Box> DirectLight::BeforePlate(
+  const LightGroup& root, const Vec3& centre, const Vec3& size)
+{
+  if (!root.Plane())
+  {
+    return std::nullopt;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double height = (centre[axis] - root.Centre[axis]) * root.Normal[axis];
+    const double reach = 0.5 * size[axis];
+    if (std::abs(root.Normal[axis]) > 1.0 - Upright && std::abs(height) < (1.0 - Upright) * reach)
+    {
+      Box front{centre - 0.5 * size, centre + 0.5 * size};
+      (root.Normal[axis] > 0.0 ? front.Lower : front.Upper)[axis] = root.Centre[axis];
+      return front;
+    }
+  }
+  return std::nullopt;
+}
+
 Spectrum DirectLight::BoxFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
@@ -101,6 +125,17 @@ Spectrum DirectLight::BoxFluence(
   if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
   {
     return {};
+  }
+  if (const std::optional<Box> front = this->BeforePlate(root, centre, size))
+  {
+    BoxLight moved = light;
+    moved.Ways = light.Ways.Moved(from, front->Centre() - centre);
+    Spectrum value = this->BoxFluence(moved, front->Centre(), front->Size(), splits);
+    for (double& each : value)
+    {
+      each *= front->Volume() / (size.x * size.y * size.z);
+    }
+    return value;
   }
   if (splits > 0 && edge > BoxRatio * distance)
   {
@@ -351,7 +386,9 @@ Spectrum DirectLight::GaussFluence(
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
-  const int order = this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
+  const double edge = LargestEdge(size) * root.Law.Sharpness();
+  const bool slow = edge < TwoPointRatio * root.Distance(centre);
+  const int order = slow && this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
   std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
   Spectrum sum{};
   const bool even = !this->BehindBorder(light);

@@ -19,9 +19,56 @@ constexpr double TriangleRatio = 0.5;
 constexpr double PlateShare = 0.25;
 constexpr double TrianglePointRatio = 0.1;
 constexpr double PartPointRatio = 0.025;
+/// Above this share six points serve, exact for a polynomial of fourth degree, else three, exact
+/// for a quadratic (Strang and Fix 1973; Dunavant 1985): where they lie between a corner and the
+/// centre, and their weights.
+constexpr double SixPointRatio = 0.2;
+constexpr std::array<double, 1> ThreePoints = {0.5};
+constexpr std::array<double, 1> ThreeWeights = {1.0 / 3.0};
+constexpr std::array<double, 2> SixPoints = {0.7252713594706870, -0.3378454727478950};
+constexpr std::array<double, 2> SixWeights = {0.109951743655322, 0.223381589678011};
 constexpr int MostSplits = 14;
 /// How often one is split, in all, that the edge of a shadow runs through.
 constexpr int ShadowSplits = 4;
+
+/// What lies before the plane of a plate of a triangle that it cuts, in one or two triangles.
+struct Front
+{
+  std::array<Triangle, 2> Parts;
+  int Count = 1;
+};
+
+Front FrontOf(const LightGroup& root, const Triangle& corners, double tolerance)
+{
+  Front front{{corners, corners}};
+  std::array<double, 3> heights;
+  std::transform(corners.begin(), corners.end(), heights.begin(),
+    [&root](const Vec3& corner) { return glm::dot(corner - root.Centre, root.Normal); });
+  const auto [lowest, highest] = std::minmax({heights[0], heights[1], heights[2]});
+  if (!root.Plane() || lowest >= -tolerance || highest <= tolerance)
+  {
+    return front;
+  }
+  std::array<Vec3, 4> polygon;
+  int count = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int next = (i + 1) % 3;
+    if (heights[i] >= 0.0)
+    {
+      polygon[count++] = corners[i];
+    }
+    if ((heights[i] < 0.0) != (heights[next] < 0.0))
+    {
+      polygon[count++] =
+        glm::mix(corners[i], corners[next], heights[i] / (heights[i] - heights[next]));
+    }
+  }
+  front.Count = count - 2;
+  front.Parts = {Triangle{polygon[0], polygon[1], polygon[2]},
+    Triangle{polygon[0], polygon[2], polygon[count - 1]}};
+  return front;
+}
 
 } // namespace
 
@@ -29,7 +76,15 @@ std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   std::size_t light, const Triangle& corners, const Vec3& normal) const
 {
   std::array<Spectrum, 2> sum{};
-  this->AddTriangle(light, corners, normal, 0, 1.0, sum);
+  const Front front =
+    FrontOf(this->Scene_.Lights().Root(light), corners, this->Scene_.Shapes().Tolerance());
+  const double area = AreaOf(corners);
+  for (int part = 0; part < front.Count; ++part)
+  {
+    const double share =
+      front.Count == 1 && front.Parts[0] == corners ? 1.0 : AreaOf(front.Parts[part]) / area;
+    this->AddTriangle(light, front.Parts[part], normal, 0, share, sum);
+  }
   return sum;
 }
 
@@ -65,53 +120,61 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     splitAll();
     return;
   }
-  // Three points are exact for a quadratic (Strang and Fix).
-  std::array<Vec3, 3> points;
-  const int count = size < (level == 0 ? TrianglePointRatio : PartPointRatio) * distance ? 1 : 3;
-  for (int i = 0; i < count; ++i)
+  const auto add = [&](const Vec3& point, double share, bool clear)
   {
-    points[i] = count == 1 ? centre : 0.5 * (centre + corners[i]);
-  }
-  bool clear = false;
-  if (count > 1)
-  {
-    double least = 1.0;
-    double most = 0.0;
-    for (int i = 0; i < count; ++i)
-    {
-      const double share = this->VisibleShare(root, points[i]);
-      least = std::min(least, share);
-      most = std::max(most, share);
-    }
-    if (most == 0.0)
-    {
-      return;
-    }
-    clear = least == 1.0;
-    if (!clear && level < ShadowSplits)
-    {
-      // The edge of a shadow runs through the triangle.
-      splitAll();
-      return;
-    }
-  }
-  for (int face = 0; face < 2; ++face)
-  {
-    for (int i = 0; i < count; ++i)
+    for (int face = 0; face < 2; ++face)
     {
       // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
-      const double side = glm::dot(root.Centre - points[i], normal);
+      const double side = glm::dot(root.Centre - point, normal);
       if ((face == 0 ? side : -side) <= -root.Radius)
       {
         continue;
       }
-      const Spectrum value =
-        this->Illuminance(light, points[i], face == 0 ? normal : -normal, clear);
+      const Spectrum value = this->Illuminance(light, point, face == 0 ? normal : -normal, clear);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        sum[face][band] += weight / count * value[band];
+        sum[face][band] += weight * share * value[band];
       }
     }
+  };
+  if (size < (level == 0 ? TrianglePointRatio : PartPointRatio) * distance)
+  {
+    add(centre, 1.0, false);
+    return;
+  }
+  std::array<double, 3> visible;
+  std::transform(corners.begin(), corners.end(), visible.begin(),
+    [&](const Vec3& corner)
+    { return this->VisibleShare(root, glm::mix(centre, corner, ThreePoints[0])); });
+  const auto [least, most] = std::minmax({visible[0], visible[1], visible[2]});
+  if (most == 0.0)
+  {
+    return;
+  }
+  const bool clear = least == 1.0;
+  if (!clear && level < ShadowSplits)
+  {
+    // The edge of a shadow runs through the triangle.
+    splitAll();
+    return;
+  }
+  const auto addAll = [&](const auto& points, const auto& weights)
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (const Vec3& corner : corners)
+      {
+        add(glm::mix(centre, corner, points[i]), weights[i], clear);
+      }
+    }
+  };
+  if (clear && size > SixPointRatio * distance)
+  {
+    addAll(SixPoints, SixWeights);
+  }
+  else
+  {
+    addAll(ThreePoints, ThreeWeights);
   }
 }
 

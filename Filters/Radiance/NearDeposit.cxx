@@ -36,6 +36,8 @@ double Brightest(const Spectrum& value)
 struct NearDeposit::Ray
 {
   Vec3 Origin, Direction;
+  /// Shapes are sought from beside the origin, or the ray's own plate would be met.
+  Vec3 Beside;
   /// [lm]
   Spectrum Power;
 };
@@ -78,8 +80,9 @@ NearDeposit::Ray NearDeposit::Draw(std::size_t leaf, std::uint64_t index, std::u
   const Vec3 aside = std::abs(group.Normal.x) < 0.9 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
   const Vec3 direction = LambertianDirection(
     group.Normal, glm::normalize(glm::cross(group.Normal, aside)), point[2], point[3]);
-  Ray ray{group.At(point[0], point[1]) + 10.0 * this->Scene_.Shapes().Tolerance() * group.Normal,
-    direction, Spectrum{}};
+  const Vec3 origin = group.At(point[0], point[1]);
+  Ray ray{origin, direction, origin + 10.0 * this->Scene_.Shapes().Tolerance() * group.Normal,
+    Spectrum{}};
   const double weight = glm::pi<double>() * group.AreaAt(point[0], point[1]) / group.Area *
                         group.Law.Relative(direction, glm::dot(direction, group.Normal)) /
                         static_cast<double>(count);
@@ -93,7 +96,7 @@ NearDeposit::Ray NearDeposit::Draw(std::size_t leaf, std::uint64_t index, std::u
 void NearDeposit::Follow(const Ray& ray, std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const Hit hit = this->Scene_.Shapes().Intersect(ray.Origin, ray.Direction, 0.0, this->Reach_);
+  const Hit hit = this->Scene_.Shapes().Intersect(ray.Beside, ray.Direction, 0.0, this->Reach_);
   thread_local std::vector<Segment> pieces;
   smoke.Walk(ray.Origin, ray.Direction, 0.0, std::min(this->Reach_, hit.Distance), pieces);
   Spectrum depth{};
