@@ -18,8 +18,6 @@ namespace
 /// more.
 constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
-/// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
-constexpr double DeepestDepth = 100.0;
 /// A leaf is split above this r/d, where three Gauss points an edge do not follow its transmittance
 /// any more: in four, or in two where one edge is so many times the other. How often: that in four
 /// counts three times.
@@ -38,8 +36,23 @@ constexpr double EvenDepth = 0.04;
 constexpr double StencilDepth = 1.0;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
-/// Shadow rays along one edge of a light that is partly hidden.
-constexpr int ShadowEdge = 6;
+/// Below this radius over distance a light is seen whole or not at all.
+constexpr double SmallRatio = 0.05;
+/// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so
+/// that no two lie level with each other along either edge.
+constexpr int ShadowPlaces = 55;
+constexpr int ShadowStep = 34;
+
+/// Where in its part of each edge a place lies: off the middle, as edges of shadows often run
+/// through fractions of a plate, where rounding would decide.
+constexpr glm::dvec2 ShadowShift(0.4637, 0.5417);
+
+/// A place of the lattice, 0 to 1 along both edges.
+glm::dvec2 ShadowPlace(int number)
+{
+  return (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
+         static_cast<double>(ShadowPlaces);
+}
 
 int SplitsOf(const EmissionLaw& law)
 {
@@ -73,40 +86,54 @@ double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) c
   {
     return 1.0;
   }
-  const Vec3& point = receiver.Point;
-  return group.Radius < 0.05 * glm::length(group.Centre - point)
-           ? (this->Scene_.Shapes().Visible(point, group.Centre) ? 1.0 : 0.0)
-           : this->VisibleShare(group, point);
+  switch (this->SightOf(group, receiver.Point))
+  {
+  case Sight::None:
+    return 0.0;
+  case Sight::Whole:
+    return 1.0;
+  default:
+    return this->VisibleShare(group, receiver.Point);
+  }
 }
 
-double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
+DirectLight::Sight DirectLight::SightOf(const LightGroup& group, const Vec3& point) const
 {
   const Geometry& shapes = this->Scene_.Shapes();
-  const auto visible = [&](double u, double v)
-  { return shapes.Visible(point, group.At(u, v)) ? 1 : 0; };
-  // The centre and the corners: a shadow's edge mostly parts them.
+  if (group.Radius < SmallRatio * glm::length(group.Centre - point))
+  {
+    return shapes.Visible(point, group.Centre) ? Sight::Whole : Sight::None;
+  }
+  return this->SightOfAll(group, point);
+}
+
+DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& point) const
+{
   constexpr double inset = 0.04;
-  int seen = visible(0.5, 0.5);
+  const Geometry& shapes = this->Scene_.Shapes();
+  const bool centre = shapes.Visible(point, group.At(0.5, 0.5));
   for (const double u : {inset, 1.0 - inset})
   {
     for (const double v : {inset, 1.0 - inset})
     {
-      seen += visible(u, v);
+      if (shapes.Visible(point, group.At(u, v)) != centre)
+      {
+        return Sight::Parted;
+      }
     }
   }
-  if (seen == 0 || seen == 5)
+  return centre ? Sight::Whole : Sight::None;
+}
+
+double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
+{
+  int seen = 0;
+  for (int i = 0; i < ShadowPlaces; ++i)
   {
-    return seen == 0 ? 0.0 : 1.0;
+    const glm::dvec2 place = ShadowPlace(i);
+    seen += this->Scene_.Shapes().Visible(point, group.At(place.x, place.y)) ? 1 : 0;
   }
-  seen = 0;
-  for (int i = 0; i < ShadowEdge; ++i)
-  {
-    for (int j = 0; j < ShadowEdge; ++j)
-    {
-      seen += visible((i + 0.5) / ShadowEdge, (j + 0.5) / ShadowEdge);
-    }
-  }
-  return static_cast<double>(seen) / (ShadowEdge * ShadowEdge);
+  return static_cast<double>(seen) / ShadowPlaces;
 }
 
 double DirectLight::Ways::At(const Vec3& place) const
@@ -220,36 +247,57 @@ void DirectLight::AddLeaf(
   const bool thin = leaf.Law == EmissionLaw() && this->Scene_.Smoke().MaximumExtinction() *
                                                      this->Scene_.LargestScale() * leaf.Radius <
                                                    EvenDepth;
-  const int order = parted ? ShadowEdge : few || thin ? 2 : 3;
   double weights = 0.0;
   Spectrum weighted{};
-  for (int i = 0; i < order; ++i)
+  const auto add = [&](double u, double v, double share)
   {
-    for (int j = 0; j < order; ++j)
+    const Vec3 target = leaf.At(u, v);
+    const Vec3 to = target - point;
+    const double square = glm::dot(to, to);
+    const double distance = std::sqrt(square);
+    const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
+    double weight = share * leaf.AreaAt(u, v) * cosine / square;
+    if (receiver.Normal)
     {
-      const double u = order == 2 ? Nodes2[i] : parted ? (i + 0.5) / ShadowEdge : Nodes3[i];
-      const double v = order == 2 ? Nodes2[j] : parted ? (j + 0.5) / ShadowEdge : Nodes3[j];
-      const Vec3 target = leaf.At(u, v);
-      const Vec3 to = target - point;
-      const double square = glm::dot(to, to);
-      const double distance = std::sqrt(square);
-      const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
-      double weight =
-        leaf.AreaAt(u, v) * cosine / square * (order == 3 ? Weights3[i] * Weights3[j] : 1.0);
-      if (receiver.Normal)
+      weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
+    }
+    weights += weight;
+    if (parted && !this->Scene_.Shapes().Visible(point, target))
+    {
+      return;
+    }
+    weight *= leaf.Law.Relative(-to / distance, cosine);
+    const double depth = few ? path.MeanExtinction * distance : this->Depth(receiver, target);
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+    }
+  };
+  if (parted)
+  {
+    for (int i = 0; i < ShadowPlaces; ++i)
+    {
+      const glm::dvec2 place = ShadowPlace(i);
+      add(place.x, place.y, 1.0);
+    }
+  }
+  else if (few || thin)
+  {
+    for (const double u : Nodes2)
+    {
+      for (const double v : Nodes2)
       {
-        weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
+        add(u, v, 1.0);
       }
-      weights += weight;
-      if (parted && !this->Scene_.Shapes().Visible(point, target))
+    }
+  }
+  else
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
       {
-        continue;
-      }
-      weight *= leaf.Law.Relative(-to / distance, cosine);
-      const double depth = few ? path.MeanExtinction * distance : this->Depth(receiver, target);
-      for (int band = 0; band < this->Scene_.Bands(); ++band)
-      {
-        weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
+        add(Nodes3[i], Nodes3[j], Weights3[i] * Weights3[j]);
       }
     }
   }

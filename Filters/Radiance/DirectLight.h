@@ -79,8 +79,11 @@ private:
   static constexpr double FlatDepth = 0.25 * Aside;
   static constexpr double FlatRatio = 0.2 * Aside;
   static constexpr double TwoPointDepth = 1.2 * Aside;
-  static constexpr double TwoPointRatio = 0.25 * Aside;
+  static constexpr double TwoPointRatio = 0.2413;
   static constexpr double DeepestGauss = 4.0 * Aside;
+
+  /// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
+  static constexpr double DeepestDepth = 100.0;
 
   /// Mean extinction along the ways from one point to the places of a light's plate, at 633 nm
   /// [1/m]: a polynomial through three by three of them.
@@ -116,6 +119,17 @@ private:
 
   /// Share of a group that is not hidden from a receiver; of a small one all or nothing.
   double Visible(const LightGroup& group, const Receiver& receiver) const;
+  /// How much of a light is seen from a point.
+  enum class Sight
+  {
+    None,
+    Parted,
+    Whole
+  };
+  /// As its centre and its corners tell: a shadow's edge mostly parts them.
+  Sight SightOfAll(const LightGroup& group, const Vec3& point) const;
+  /// The same; of a small one all or nothing.
+  Sight SightOf(const LightGroup& group, const Vec3& point) const;
   /// Share of a group that is not hidden from a point, place by place.
   double VisibleShare(const LightGroup& group, const Vec3& point) const;
   /// The ways to a light, where they are few enough to stand for all.
@@ -142,8 +156,6 @@ private:
   {
     std::size_t Index;
     std::int64_t Cell;
-    /// Nothing hides it from the box.
-    bool Clear;
     /// Around that from the centre of the box.
     Deepening Ways;
     /// One way stands for all ways from a place to the light.
@@ -153,7 +165,7 @@ private:
     /// Its fluence around it, if kept.
     const NearField* Near = nullptr;
   };
-  /// Fluence at a point.
+  /// Fluence at a point, as all below of what nothing hides.
   /// @param extinction mean along all ways to the light, if known [1/m]
   Spectrum Fluence(
     const BoxLight& light, const Vec3& point, const std::optional<double>& extinction) const;
@@ -163,6 +175,16 @@ private:
   Spectrum CellFluence(BoxLight light) const;
   /// The same over what finer grids leave of the cell.
   Spectrum OwnFluence(const BoxLight& light, int splits) const;
+  /// What a light that were a point would send along a way from it, over its luminous intensity.
+  static double PointLight(const LightGroup& light, const Vec3& way);
+  /// Share of a light that is not hidden from a cell, in the mean over the light that the cell
+  /// would get.
+  /// @param ways to places of the light that tell it
+  double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
+  /// The same of all cells of a block: of most of them their centres tell, others are crossed by
+  /// the edge of a shadow. Cells that walls cut and that the light is near to are not asked.
+  /// @param roughly whether their centres do for all
+  std::vector<double> ShownIn(std::size_t light, const Medium::Block& block, bool roughly) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
   /// its light gets behind it.
   static std::optional<Box> BeforePlate(
@@ -191,10 +213,9 @@ private:
   bool Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
     const std::vector<GaussPlace>& places) const;
   /// Mean over a box before such a light.
-  /// @param visible share of the light that is not hidden from the box
   /// @param extinction mean along some way between the box and the light [1/m]
-  Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double visible,
-    double extinction, const std::vector<GaussPlace>& places) const;
+  Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
+    const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;

@@ -305,6 +305,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   const bool weak = ways && ways->Share < WeakShare;
   const std::vector<Deepening> deepening = this->CellWays(light).DeepeningIn(
     block, ways ? ways->Extinction : std::vector<double>(), weak || (ways && ways->Rough));
+  const std::vector<double> shown = this->ShownIn(light, block, weak);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -315,15 +316,18 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
         return;
       }
       // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-      std::optional<Spectrum> value = this->KeptFluence(light, cell);
-      if (!value)
+      const std::optional<Spectrum> kept = this->KeptFluence(light, cell);
+      const double share = kept ? 1.0 : shown[block.Number(place)];
+      if (share == 0.0)
       {
-        value = this->CellFluence(
-          {light, cell, false, deepening[block.Number(place)], ways.has_value(), weak});
+        return;
       }
+      const Spectrum value = kept ? *kept
+                                  : this->CellFluence({light, cell, deepening[block.Number(place)],
+                                      ways.has_value(), weak});
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        sums[cell][band] += (*value)[band];
+        sums[cell][band] += share * value[band];
       }
     });
   work.Told = ways ? ways->Told : 0;

@@ -40,15 +40,6 @@ double MeanAttenuation(double x, double shift)
   return std::exp(LogarithmOfMean(x) - x * shift);
 }
 
-/// What a light that were a point would send along a way, over its luminous intensity.
-double PointLight(const LightGroup& light, const Vec3& way)
-{
-  const double square = glm::dot(way, way);
-  const double distance = std::sqrt(square);
-  const double cosine = glm::dot(way, light.Normal) / distance;
-  return cosine / square * light.Law.Relative(way / distance, cosine);
-}
-
 } // namespace
 
 std::vector<DirectLight::GaussPlace> DirectLight::GaussPlaces(
@@ -88,8 +79,16 @@ Spectrum DirectLight::Fluence(
     return value;
   }
   return extinction
-           ? this->Fluence(light.Index, Receiver{point, std::nullopt, light.Clear, {}, extinction})
-           : this->Fluence(light.Index, point, light.Clear);
+           ? this->Fluence(light.Index, Receiver{point, std::nullopt, true, {}, extinction})
+           : this->Fluence(light.Index, point, true);
+}
+
+double DirectLight::PointLight(const LightGroup& light, const Vec3& way)
+{
+  const double square = glm::dot(way, way);
+  const double distance = std::sqrt(square);
+  const double cosine = glm::dot(way, light.Normal) / distance;
+  return cosine / square * light.Law.Relative(way / distance, cosine);
 }
 
 std::optional<Box> DirectLight::BeforePlate(
@@ -321,11 +320,6 @@ Spectrum DirectLight::GradedFluence(
     }
     return sum;
   }
-  const double visible = this->Visible(root, {centre, std::nullopt, light.Clear});
-  if (visible == 0.0)
-  {
-    return {};
-  }
   double least = std::numeric_limits<double>::infinity();
   for (GaussPlace& place : places)
   {
@@ -335,7 +329,7 @@ Spectrum DirectLight::GradedFluence(
     least = std::min(least, place.Depth);
   }
   // Beyond the least depth light is only dimmed, however deep the smoke.
-  return this->PointlikeMean(light, centre, visible, least / glm::length(from), places);
+  return this->PointlikeMean(light, centre, least / glm::length(from), places);
 }
 
 bool DirectLight::Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
@@ -351,8 +345,8 @@ bool DirectLight::Pointlike(const BoxLight& light, const Vec3& centre, const Vec
            { return SteadyShare * PointLight(root, place.Point - root.Centre) < atCentre; });
 }
 
-Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, double visible,
-  double extinction, const std::vector<GaussPlace>& places) const
+Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
+  const std::vector<GaussPlace>& places) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
@@ -370,7 +364,7 @@ Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, d
   Spectrum value = this->Fluence(light.Index, Receiver{centre, std::nullopt, true, {}, extinction});
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    value[band] *= visible * mean[band];
+    value[band] *= mean[band];
   }
   return value;
 }
@@ -405,26 +399,24 @@ Spectrum DirectLight::GaussFluence(
     }
     return sum;
   }
-  Receiver receiver{centre, std::nullopt, light.Clear};
+  Receiver receiver{centre, std::nullopt, true};
   if (light.Far)
   {
     receiver.Extinction = light.Ways.Mean;
   }
-  const Path path = this->SamplePath(root, receiver);
-  if (path.Visible == 0.0)
+  const double depth = this->Depth(receiver, root.Centre);
+  if (depth * this->Scene_.SmallestScale() > DeepestDepth)
   {
     return {};
   }
-  const double depth = path.MeanExtinction * toCentre;
   for (GaussPlace& place : places)
   {
     place.Depth = std::max(0.0, depth + light.Ways.At(from, place.Point - centre));
   }
   if (this->Pointlike(light, centre, size, places))
   {
-    return this->PointlikeMean(light, centre, path.Visible, path.MeanExtinction, places);
+    return this->PointlikeMean(light, centre, depth / toCentre, places);
   }
-  receiver.Clear = true;
   for (const GaussPlace& place : places)
   {
     receiver.Point = place.Point;
@@ -432,7 +424,7 @@ Spectrum DirectLight::GaussFluence(
     const Spectrum value = this->Fluence(light.Index, receiver);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
-      sum[band] += path.Visible * place.Weight * value[band];
+      sum[band] += place.Weight * value[band];
     }
   }
   return sum;

@@ -11,6 +11,14 @@
 namespace smokevis
 {
 
+namespace
+{
+
+/// Ways to a light that tell how much of it is hidden from a cell near to it, which gets much.
+constexpr std::uint64_t NearShadowWays = 256;
+
+} // namespace
+
 bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
@@ -18,7 +26,7 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   {
     return std::all_of(part->Fine.begin(), part->Fine.end(),
       [&](const PartSample& sample)
-      { return this->VisibleShare(root, part->Centre + Vec3(sample.Offset)) == 1.0; });
+      { return this->SightOfAll(root, part->Centre + Vec3(sample.Offset)) == Sight::Whole; });
   }
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
@@ -27,12 +35,12 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   {
     const Vec3 shift(
       corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
-    if (this->VisibleShare(root, centre + shift * size) < 1.0)
+    if (this->SightOfAll(root, centre + shift * size) != Sight::Whole)
     {
       return false;
     }
   }
-  return this->VisibleShare(root, centre) == 1.0;
+  return this->SightOfAll(root, centre) == Sight::Whole;
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const
@@ -68,14 +76,23 @@ Spectrum DirectLight::NearCellFluence(
   {
     return this->SampledFluence(light, *part);
   }
-  BoxLight box{light, cell, clear, this->CellWays(light).DeepeningOf(cell)};
+  const double shown = clear ? 1.0 : this->ShownShare(light, cell, NearShadowWays);
+  if (shown == 0.0)
+  {
+    return {};
+  }
+  BoxLight box{light, cell, this->CellWays(light).DeepeningOf(cell)};
   // In the thickest cells light does not follow what is interpolated, nor behind a border of smoke.
-  if (clear && this->BoxDepth(cell, smoke.CellSize(cell)) < DeepestGauss &&
-      !this->BehindBorder(box))
+  if (this->BoxDepth(cell, smoke.CellSize(cell)) < DeepestGauss && !this->BehindBorder(box))
   {
     box.Near = kept;
   }
-  return this->OwnFluence(box, BoxSplits);
+  Spectrum value = this->OwnFluence(box, BoxSplits);
+  for (double& each : value)
+  {
+    each *= shown;
+  }
+  return value;
 }
 
 Spectrum DirectLight::CellFluence(BoxLight light) const
@@ -85,7 +102,6 @@ Spectrum DirectLight::CellFluence(BoxLight light) const
   const double sharpness = root.Law.Sharpness();
   const bool splits =
     !light.Far && LargestEdge(whole.Size()) * sharpness > BoxRatio * root.Distance(whole.Centre());
-  light.Clear = splits && this->Clear(light.Index, light.Cell);
   light.Far = light.Far || (!splits && root.Radius * sharpness <
                                          PathRatio * glm::length(whole.Centre() - root.Centre));
   return this->OwnFluence(light, splits ? BoxSplits : 0);

@@ -142,16 +142,17 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     add(centre, 1.0, false);
     return;
   }
-  std::array<double, 3> visible;
-  std::transform(corners.begin(), corners.end(), visible.begin(),
+  std::array<Sight, 3> sights;
+  std::transform(corners.begin(), corners.end(), sights.begin(),
     [&](const Vec3& corner)
-    { return this->VisibleShare(root, glm::mix(centre, corner, ThreePoints[0])); });
-  const auto [least, most] = std::minmax({visible[0], visible[1], visible[2]});
-  if (most == 0.0)
+    { return this->SightOfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
+  const auto all = [&sights](Sight sight)
+  { return std::count(sights.begin(), sights.end(), sight) == 3; };
+  if (all(Sight::None))
   {
     return;
   }
-  const bool clear = least == 1.0;
+  const bool clear = all(Sight::Whole);
   if (!clear && level < ShadowSplits)
   {
     // The edge of a shadow runs through the triangle.

@@ -56,7 +56,7 @@ public:
     const GlobalLines& Lines_;
     std::uint64_t Key_;
     /// Of each kind.
-    std::vector<EvenPoints> Points_;
+    std::vector<EvenPoints<>> Points_;
   };
 
 private:

@@ -36,6 +36,11 @@ constexpr double Lift = 1e-4;
 constexpr double ThinStep = 0.5;
 constexpr double ThickStep = 2.0;
 
+/// Places on the border of two boxes belong to the inner one, and those halfway between two nodes
+/// to the upper one: cells often lie so that rounding would decide.
+constexpr double Hair = 1e-6;
+constexpr double Inwards = 1.0 - Hair;
+
 /// Counts that come out whole but for rounding are whole.
 constexpr double Rounding = 1e-4;
 
@@ -223,8 +228,8 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
 
 double NearField::Away(const Vec3& place) const
 {
-  return std::max(
-    {std::abs(place.x) - this->Half_[0], std::abs(place.y) - this->Half_[1], place.z, 0.0});
+  return Inwards * std::max({std::abs(place.x) - this->Half_[0], std::abs(place.y) - this->Half_[1],
+                     place.z, 0.0});
 }
 
 bool NearField::Smooth(const Vec3& point) const
@@ -265,7 +270,8 @@ double NearField::Quadratic(const Level& level, const Vec3& place, int band) con
   for (int axis = 0; axis < 3; ++axis)
   {
     const double at = (place[axis] - level.First[axis]) / level.Step[axis];
-    const int nearest = std::clamp(static_cast<int>(std::lround(at)), 1, level.Count[axis] - 2);
+    const int nearest =
+      std::clamp(static_cast<int>(std::floor(at + 0.5 + Hair)), 1, level.Count[axis] - 2);
     const double t = at - nearest;
     first[axis] = nearest - 1;
     weights[axis] = {0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)};

@@ -27,28 +27,31 @@ constexpr double ToUnit(std::uint64_t word)
   return static_cast<double>(word >> 11) * 0x1.0p-53;
 }
 
-/// Points that fill the four-dimensional unit cube evenly: the additive recurrence with the powers
-/// of the root of x^5 = x + 1 (Roberts 2018), moved by a random shift. Any one point is uniform, so
-/// that means over the sequence have no bias; many together lie more evenly than independent ones.
-class EvenPoints
+/// Points that fill the unit cube of 4 or 5 dimensions evenly: the additive recurrence with the
+/// powers of the root of x^(n + 1) = x + 1 (Roberts 2018), moved by a random shift. Any one point
+/// is uniform, so that means over the sequence have no bias; many together lie more evenly than
+/// independent ones.
+template <int Dimensions = 4> class EvenPoints
 {
 public:
   /// Different keys give independent shifts.
   explicit EvenPoints(std::uint64_t key)
   {
-    for (int axis = 0; axis < 4; ++axis)
+    for (int axis = 0; axis < Dimensions; ++axis)
     {
       this->Shift_[axis] = ToUnit(Mix(key + 0x632BE59BD9B4E019ULL * (axis + 1)));
     }
   }
 
-  std::array<double, 4> Point(std::uint64_t index) const
+  std::array<double, Dimensions> Point(std::uint64_t index) const
   {
-    constexpr double root = 1.1673039782614187;
-    constexpr std::array<double, 4> step = {1.0 / root, 1.0 / (root * root),
-      1.0 / (root * root * root), 1.0 / (root * root * root * root)};
-    std::array<double, 4> point;
-    for (int axis = 0; axis < 4; ++axis)
+    static_assert(Dimensions == 4 || Dimensions == 5);
+    constexpr double root = Dimensions == 4 ? 1.1673039782614187 : 1.1347241384015195;
+    constexpr std::array<double, 5> step = {1.0 / root, 1.0 / (root * root),
+      1.0 / (root * root * root), 1.0 / (root * root * root * root),
+      1.0 / (root * root * root * root * root)};
+    std::array<double, Dimensions> point;
+    for (int axis = 0; axis < Dimensions; ++axis)
     {
       const double value = this->Shift_[axis] + static_cast<double>(index) * step[axis];
       point[axis] = value - static_cast<double>(static_cast<std::int64_t>(value));
@@ -57,7 +60,7 @@ public:
   }
 
 private:
-  std::array<double, 4> Shift_;
+  std::array<double, Dimensions> Shift_;
 };
 
 /// A unit direction, all alike likely, from two numbers of 0 to 1.

@@ -1,0 +1,136 @@
+// Shadows in smoke: what a beam, slats and a door's frame leave of a lamp's light.
+#include "SceneLibrary.h"
+#include "Solved.h"
+#include "TestReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace
+{
+
+using namespace smokevis;
+
+/// A room of 6 x 3 x 3 m between black walls, with a lamp of 0.6 x 0.6 m below its ceiling.
+SceneDescription LampRoom(double albedo, int cellsAMetre)
+{
+  SceneDescription scene;
+  const Vec3 size(6, 3, 3);
+  scene.Albedo = albedo;
+  scene.Grids = {scenes::UniformSmoke(
+    Vec3(0.0), size, {6 * cellsAMetre, 3 * cellsAMetre, 3 * cellsAMetre}, 0.4)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), size, 0.5, 0.0);
+  scene.Emitters = {scenes::Plate({3, 1.5, 2.95}, {0, 0, -1}, {0, 1, 0}, 0.6, 0.6, 1000.0)};
+  return scene;
+}
+
+/// A beam of 0.2 x 0.2 m right below the lamp.
+SceneDescription BeamRoom(double albedo, int cellsAMetre)
+{
+  SceneDescription scene = LampRoom(albedo, cellsAMetre);
+  scenes::AddBlock(scene.Surfaces, {2.9, 0, 2.5}, {3.1, 3, 2.7}, 0.2, 0.0);
+  return scene;
+}
+
+/// Slats, upright and crosswise, below the lamp.
+SceneDescription SlatRoom(int cellsAMetre)
+{
+  SceneDescription scene = LampRoom(0.0, cellsAMetre);
+  constexpr int slats = 24;
+  for (int slat = 0; slat < slats; ++slat)
+  {
+    const double x = 1.8 + 2.4 * (slat + 0.5) / slats;
+    scenes::AddRectangle(scene.Surfaces, {x, 0.3, 2.2}, {0, 2.4, 0}, {0, 0, 0.25}, 1, 1, 0.0);
+  }
+  return scene;
+}
+
+/// A wall with a door between the lamp and the other half of the room.
+SceneDescription DoorRoom(int cellsAMetre)
+{
+  SceneDescription scene = LampRoom(0.0, cellsAMetre);
+  scenes::AddRectangle(scene.Surfaces, {4.05, 0, 0}, {0, 1, 0}, {0, 0, 3}, 2, 6, 0.0);
+  scenes::AddRectangle(scene.Surfaces, {4.05, 2, 0}, {0, 1, 0}, {0, 0, 3}, 2, 6, 0.0);
+  scenes::AddRectangle(scene.Surfaces, {4.05, 1, 2}, {0, 1, 0}, {0, 0, 1}, 2, 2, 0.0);
+  return scene;
+}
+
+/// What is amiss of the light of a row of cells along x, as a share of what all of them get.
+double AmissInRow(const Solved& solved, double y, double z, double from, double to)
+{
+  const ReferenceIntegrator reference(*solved.TheScene);
+  const Medium& smoke = solved.TheScene->Smoke();
+  const double width = smoke.CellSize(0).x;
+  double all = 0.0;
+  double amiss = 0.0;
+  for (double x = from + 0.5 * width; x < to; x += width)
+  {
+    const std::int64_t cell = smoke.Locate({x, y, z});
+    const Box box = smoke.BoxOf(cell);
+    const auto draw = [&](Pcg32& random)
+    {
+      const double u = random.Uniform();
+      const double v = random.Uniform();
+      return box.Lower + Vec3(u, v, random.Uniform()) * box.Size();
+    };
+    const double expected = reference.MeanFluence(draw, 40000, 1).Mean;
+    all += expected;
+    amiss += std::abs(solved.Fluence(Vec3(x, y, z)).Mean - expected);
+  }
+  return amiss / all;
+}
+
+double PowerTakenUp(const Solved& solved)
+{
+  return solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean;
+}
+
+// Cells that the edge of a shadow crosses are measured at 64 places: to some 2 % of an unhidden
+// cell's light each, more where several edges do. Edges on patches are followed to a 16th of their
+// triangles.
+TEST(Shadows, CellsBehindBeamSlatsAndDoor)
+{
+  report::Head("Direct light of a row of cells in half shadows: what is amiss of all; power");
+  for (const int cells : {4, 8})
+  {
+    const std::string size = ", cells of 1/" + std::to_string(cells) + " m";
+    const Solved beam(BeamRoom(0.0, cells), 0.1);
+    report::Absolute("below a beam" + size, 0.0, AmissInRow(beam, 1.6, 2.3, 1.0, 5.0), 0.04);
+    report::Absolute("far below it" + size, 0.0, AmissInRow(beam, 1.6, 0.9, 1.0, 5.0), 0.03);
+    report::Relative("power" + size, beam.TheScene->Lights().Flux(0), PowerTakenUp(beam), 0.002);
+    const Solved slats(SlatRoom(cells), 0.1);
+    report::Absolute("below slats" + size, 0.0, AmissInRow(slats, 1.6, 1.6, 1.0, 5.0), 0.08);
+    report::Relative("power" + size, slats.TheScene->Lights().Flux(0), PowerTakenUp(slats), 0.005);
+    const Solved door(DoorRoom(cells), 0.1);
+    report::Absolute("behind a door" + size, 0.0, AmissInRow(door, 1.1, 0.9, 4.25, 6.0), 0.05);
+    report::Relative("power" + size, door.TheScene->Lights().Flux(0), PowerTakenUp(door), 0.004);
+  }
+}
+
+// The veil of rays along a beam, below the lamp that it hides a part of.
+TEST(Shadows, VeilAlongABeam)
+{
+  report::Head("Veil along a beam below a lamp, against the path tracer");
+  for (const int cells : {4, 8})
+  {
+    const Solved solved(BeamRoom(0.7, cells), 0.03);
+    const ReferenceIntegrator reference(*solved.TheScene);
+    for (const double z : {2.2, 1.2})
+    {
+      for (const double x : {2.8, 2.6, 2.4})
+      {
+        const Ray ray{{x, 0.01, z}, {0, 1, 0}};
+        const RayLight light = solved.Trace(ray);
+        const Estimate expected = reference.Veil(ray, 100000, 1);
+        report::Relative("cells of 1/" + std::to_string(cells) + " m, " +
+                           std::to_string(3.0 - x).substr(0, 3) + " m aside, z " +
+                           std::to_string(z).substr(0, 3),
+          expected.Mean, light.Veil(), 0.04,
+          std::hypot(expected.StandardError, StandardError(light.VeilMultiple)));
+      }
+    }
+  }
+}
+
+} // namespace
