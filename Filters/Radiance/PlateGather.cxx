@@ -3,12 +3,14 @@
 #include "IndirectLight.h"
 #include "MultipleShape.h"
 #include "Sampler.h"
+#include "SignFacets.h"
 #include "Team.h"
 #include "Triangle.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
@@ -24,16 +26,18 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
+/// A sign of more cells gathers for those that are to be bright and for the others alone.
+constexpr std::size_t MostOwnCells = 16;
 /// Places by which it is told whether any of a plate is free.
 constexpr int Trials = 64;
 
-/// The cells of a sign, as triangles.
+/// Cells of a sign, as triangles.
 class PlatePlaces
 {
 public:
-  PlatePlaces(const EmitterSet& lights, const Sign& sign)
+  PlatePlaces(const EmitterSet& lights, const std::vector<std::size_t>& cells)
   {
-    for (const std::size_t cell : sign.Cells)
+    for (const std::size_t cell : cells)
     {
       const std::vector<Vec3>& vertices = lights.Cells()[cell].Vertices;
       for (std::size_t v = 1; v + 1 < vertices.size(); ++v)
@@ -75,42 +79,67 @@ PlateGather::PlateGather(const Scene& scene, const LightFieldOptions& options,
 
 std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress& progress)
 {
-  const std::vector<Sign>& signs = this->Scene_.Lights().Signs();
-  std::vector<std::size_t> wanted;
-  for (std::size_t sign = 0; sign < signs.size(); ++sign)
+  std::vector<Task> tasks;
+  std::size_t plates = 0;
+  for (std::size_t sign = 0; sign < this->Scene_.Lights().Signs().size(); ++sign)
   {
-    if (this->Wanted(signs[sign]))
+    if (this->Wanted(this->Scene_.Lights().Signs()[sign]))
     {
-      wanted.push_back(sign);
+      ++plates;
+      this->AddTasks(sign, tasks);
     }
   }
-  if (wanted.empty())
+  if (tasks.empty())
   {
     return {0, 0};
   }
   const CellShape shape = ShapeOfMultiple(this->Scene_, WellKnownMeans(this->Field_, this->Band_));
   const IndirectLight indirect(this->Scene_, this->Field_, this->Direct_, shape, this->Band_);
   // Signs see each other as the lines left them, whichever is gathered first.
-  std::vector<Result> results(wanted.size());
-  tbb::parallel_for(std::size_t{0}, team.OwnCount(wanted.size()),
+  std::vector<Result> results(tasks.size());
+  tbb::parallel_for(std::size_t{0}, team.OwnCount(tasks.size()),
     [&](std::size_t i)
     {
       const std::size_t own = team.OwnItem(i);
-      results[own] = this->Gather(wanted[own], indirect, progress);
+      results[own] = this->Gather(tasks[own], indirect, progress);
     });
   progress.ThrowIfStopped("light field");
   team.Complete<Result>(results.size(), [&](std::size_t i, auto&& take) { take(results[i]); });
   std::size_t rays = 0;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
+  for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     rays += results[i].Rays;
-    for (const std::size_t cell : signs[wanted[i]].Cells)
+    for (const std::size_t cell : tasks[i].Cells)
     {
       this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
         this->Band_, this->Scene_.SurfacePatches() + cell, 0)] = results[i].Illuminance;
     }
   }
-  return {wanted.size(), rays};
+  return {plates, rays};
+}
+
+void PlateGather::AddTasks(std::size_t index, std::vector<Task>& tasks) const
+{
+  const Sign& sign = this->Scene_.Lights().Signs()[index];
+  if (sign.Cells.size() <= MostOwnCells)
+  {
+    for (const std::size_t cell : sign.Cells)
+    {
+      tasks.push_back({index, {cell}});
+    }
+    return;
+  }
+  const std::vector<bool> lit = LitCells(this->Scene_.Lights(), sign);
+  for (const bool bright : {true, false})
+  {
+    Task task{index, {}};
+    std::copy_if(sign.Cells.begin(), sign.Cells.end(), std::back_inserter(task.Cells),
+      [&](std::size_t cell) { return lit[cell] == bright; });
+    if (!task.Cells.empty())
+    {
+      tasks.push_back(std::move(task));
+    }
+  }
 }
 
 bool PlateGather::Wanted(const Sign& sign) const
@@ -143,12 +172,13 @@ bool PlateGather::Sunk(const Sign& sign, const Vec3& place) const
 }
 
 PlateGather::Result PlateGather::Gather(
-  std::size_t index, const IndirectLight& indirect, const Progress& progress) const
+  const Task& task, const IndirectLight& indirect, const Progress& progress) const
 {
+  const std::size_t index = task.Sign;
   const Sign& sign = this->Scene_.Lights().Signs()[index];
   const Vec3 tangent = glm::normalize(sign.Corners[1] - sign.Corners[0]);
   const Vec3 lift = 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
-  const PlatePlaces places(this->Scene_.Lights(), sign);
+  const PlatePlaces places(this->Scene_.Lights(), task.Cells);
   const EvenPoints trials(Mix(index));
   int free = 0;
   for (int trial = 0; trial < Trials; ++trial)
@@ -160,7 +190,7 @@ PlateGather::Result PlateGather::Gather(
   const bool partly = free > 0 && free < Trials;
   double direct = 0.0;
   double area = 0.0;
-  for (const std::size_t cell : sign.Cells)
+  for (const std::size_t cell : task.Cells)
   {
     const double own = this->Scene_.Lights().CellArea(cell);
     direct += own * this->Field_.DirectIlluminance[this->Field_.PatchIndex(
@@ -175,7 +205,8 @@ PlateGather::Result PlateGather::Gather(
     Lanes illuminance;
     for (int batch = 0; batch < Batches && !progress.ShouldStop(); ++batch)
     {
-      // Even over what is free of the plate, and over directions by their cosine.
+      // Even over what is free of the plate, and over directions by their cosine. All cells of a
+      // sign draw the same, so that their noise is much the same and no pattern.
       const std::uint64_t key =
         Mix(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + Batches * stream + batch);
       const EvenPoints points(key);

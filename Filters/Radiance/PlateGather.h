@@ -4,6 +4,10 @@
 #include "LightField.h"
 #include "Scene.h"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace smokevis
 {
 
@@ -13,8 +17,9 @@ class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
 /// and the cells of their pattern more rarely still, so that noise would pass for a pattern.
-/// Indirect light hardly varies over a plate that is small against the scene: its cells share one
-/// value.
+/// Indirect light varies little over a plate that is small against the scene, but smoke glows
+/// before what is lit: each cell has a value of its own, or of a sign of many cells those that are
+/// to be bright have one and the others another.
 class PlateGather
 {
 public:
@@ -28,7 +33,14 @@ public:
   std::pair<std::size_t, std::size_t> Run(Team& team, const Progress& progress);
 
 private:
+  /// Cells of a sign that share a value.
+  struct Task
+  {
+    std::size_t Sign;
+    std::vector<std::size_t> Cells;
+  };
   bool Wanted(const Sign& sign) const;
+  void AddTasks(std::size_t index, std::vector<Task>& tasks) const;
   /// Whether backs of surfaces are all that is seen from before a place: it is in a solid that a
   /// part of the sign is sunk into.
   bool Sunk(const Sign& sign, const Vec3& place) const;
@@ -37,7 +49,7 @@ private:
     Lanes Illuminance;
     std::size_t Rays = 0;
   };
-  Result Gather(std::size_t index, const IndirectLight& indirect, const Progress& progress) const;
+  Result Gather(const Task& task, const IndirectLight& indirect, const Progress& progress) const;
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;

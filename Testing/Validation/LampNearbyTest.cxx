@@ -46,6 +46,31 @@ TEST(LampNearby, AboveASignThatReflects)
   }
 }
 
+// What the smoke throws back on the dark bars of a sign, to which it glows less than to the lit
+// ones beside them. A centre may differ from the mean over its cell by a few percent.
+TEST(LampNearby, DarkBarsOfASign)
+{
+  report::Head("Indirect illuminance of the dark bars of signs, against the path tracer");
+  for (const std::uint64_t seed : {12, 20})
+  {
+    const Solved solved(scenes::MakeRandomRoom(seed).Description);
+    const ReferenceIntegrator reference(*solved.TheScene);
+    const EmitterSet& lights = solved.TheScene->Lights();
+    for (const std::size_t cell : lights.Signs()[0].Cells)
+    {
+      if (lights.Cells()[cell].Luminance[0] > 0.0)
+      {
+        continue;
+      }
+      const Estimate expected =
+        reference.Illuminance(lights.CellCentre(cell), lights.CellNormal(cell), 100000, 1);
+      const Estimate value = solved.Illuminance({solved.TheScene->SurfacePatches() + cell}, 0);
+      report::Relative("room " + std::to_string(seed) + ", cell " + std::to_string(cell),
+        expected.Mean, value.Mean, 0.05, std::hypot(expected.StandardError, value.StandardError));
+    }
+  }
+}
+
 // Fluence under a lamp in cells of one and of two mean free paths, against cells of half the size:
 // in thick cells the light of a lamp does not get as far as it should.
 TEST(LampNearby, InThickCells)
