@@ -42,6 +42,8 @@ constexpr double SmallRatio = 0.05;
 /// that no two lie level with each other along either edge.
 constexpr int ShadowPlaces = 55;
 constexpr int ShadowStep = 34;
+/// Each such place is looked at to tell whether anything is hidden.
+constexpr int FewShadowPlaces = 5;
 
 /// Where in its part of each edge a place lies: off the middle, as edges of shadows often run
 /// through fractions of a plate, where rounding would decide.
@@ -99,15 +101,14 @@ double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) c
 
 DirectLight::Sight DirectLight::SightOf(const LightGroup& group, const Vec3& point) const
 {
-  const Geometry& shapes = this->Scene_.Shapes();
   if (group.Radius < SmallRatio * glm::length(group.Centre - point))
   {
-    return shapes.Visible(point, group.Centre) ? Sight::Whole : Sight::None;
+    return this->Scene_.Shapes().Visible(point, group.Centre) ? Sight::Whole : Sight::None;
   }
   return this->SightOfAll(group, point);
 }
 
-DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& point) const
+DirectLight::Sight DirectLight::SightOfCorners(const LightGroup& group, const Vec3& point) const
 {
   constexpr double inset = 0.04;
   const Geometry& shapes = this->Scene_.Shapes();
@@ -123,6 +124,20 @@ DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& 
     }
   }
   return centre ? Sight::Whole : Sight::None;
+}
+
+DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& point) const
+{
+  const Sight sight = this->SightOfCorners(group, point);
+  for (int i = 0; i < ShadowPlaces && sight != Sight::Parted; i += FewShadowPlaces)
+  {
+    const glm::dvec2 place = ShadowPlace(i);
+    if (this->Scene_.Shapes().Visible(point, group.At(place.x, place.y)) != (sight == Sight::Whole))
+    {
+      return Sight::Parted;
+    }
+  }
+  return sight;
 }
 
 double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const

@@ -73,13 +73,13 @@ private:
   /// Cells are often just as deep as what follows: somewhat more, or rounding would decide.
   static constexpr double Aside = 1.0 + 1e-6;
   /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
-  /// two along each edge follow an exponential over a depth x to x^4 / 4320, and 1 / d^2 over a
-  /// share x of the distance to x^4 / 36, three go farther.
-  /// Above the deepest nearly all light stays in the first part of the box.
+  /// two along each edge follow an exponential over a depth x to x^4 / 4320 and 1 / d^2 over a
+  /// share x of the distance to x^4 / 36; three go farther. Above the deepest nearly all light
+  /// stays in the first part of the box.
   static constexpr double FlatDepth = 0.25 * Aside;
   static constexpr double FlatRatio = 0.2 * Aside;
   static constexpr double TwoPointDepth = 1.2 * Aside;
-  static constexpr double TwoPointRatio = 0.2413;
+  static constexpr double TwoPointRatio = 0.25 * Aside;
   static constexpr double DeepestGauss = 4.0 * Aside;
 
   /// Light that is dimmed by this optical depth is beyond single precision: it needs no shadows.
@@ -126,7 +126,9 @@ private:
     Parted,
     Whole
   };
-  /// As its centre and its corners tell: a shadow's edge mostly parts them.
+  /// As its centre and its corners tell.
+  Sight SightOfCorners(const LightGroup& group, const Vec3& point) const;
+  /// As these and eleven places between them tell.
   Sight SightOfAll(const LightGroup& group, const Vec3& point) const;
   /// The same; of a small one all or nothing.
   Sight SightOf(const LightGroup& group, const Vec3& point) const;
@@ -182,15 +184,17 @@ private:
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
   /// The same of all cells of a block: of most of them their centres tell, others are crossed by
-  /// the edge of a shadow. Cells that walls cut and that the light is near to are not asked.
+  /// the edge of a shadow. Cells that walls cut, or that the light is near to, are not asked.
   /// @param roughly whether their centres do for all
   std::vector<double> ShownIn(std::size_t light, const Medium::Block& block, bool roughly) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
   /// its light gets behind it.
   static std::optional<Box> BeforePlate(
     const LightGroup& root, const Vec3& centre, const Vec3& size);
-  /// Mean over a box within the cell.
+  /// Mean over a box within the cell, which the plate's plane may cut.
   /// @param splits how often it may be split
+  Spectrum LitBoxFluence(const BoxLight& light, const Box& box, int splits) const;
+  /// The same of what lies before that plane.
   Spectrum BoxFluence(
     const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const;
   /// Mean extinction along all ways from a place in a box, where one stands for all [1/m].

@@ -31,7 +31,8 @@ constexpr int MostSlabs = 24;
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
 
-/// How little a plate may lean against the faces of a box that it cuts in two.
+/// Least part of a box that counts as cut off by a plate, and one minus the cosine of the angle by
+/// which the plate may lean against the box's faces (1.4 mrad).
 constexpr double Upright = 1e-6;
 
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
@@ -112,6 +113,25 @@ std::optional<Box> DirectLight::BeforePlate(
   return std::nullopt;
 }
 
+Spectrum DirectLight::LitBoxFluence(const BoxLight& light, const Box& box, int splits) const
+{
+  const std::optional<Box> front =
+    BeforePlate(this->Scene_.Lights().Root(light.Index), box.Centre(), box.Size());
+  if (!front)
+  {
+    return this->BoxFluence(light, box.Centre(), box.Size(), splits);
+  }
+  BoxLight moved = light;
+  moved.Ways = light.Ways.Moved(
+    box.Centre() - this->Scene_.Lights().Root(light.Index).Centre, front->Centre() - box.Centre());
+  Spectrum value = this->BoxFluence(moved, front->Centre(), front->Size(), splits);
+  for (double& each : value)
+  {
+    each *= front->Volume() / box.Volume();
+  }
+  return value;
+}
+
 Spectrum DirectLight::BoxFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
@@ -124,17 +144,6 @@ Spectrum DirectLight::BoxFluence(
   if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
   {
     return {};
-  }
-  if (const std::optional<Box> front = this->BeforePlate(root, centre, size))
-  {
-    BoxLight moved = light;
-    moved.Ways = light.Ways.Moved(from, front->Centre() - centre);
-    Spectrum value = this->BoxFluence(moved, front->Centre(), front->Size(), splits);
-    for (double& each : value)
-    {
-      each *= front->Volume() / (size.x * size.y * size.z);
-    }
-    return value;
   }
   if (splits > 0 && edge > BoxRatio * distance)
   {

@@ -35,7 +35,7 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   {
     const Vec3 shift(
       corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
-    if (this->SightOfAll(root, centre + shift * size) != Sight::Whole)
+    if (this->SightOfCorners(root, centre + shift * size) != Sight::Whole)
     {
       return false;
     }
@@ -116,7 +116,7 @@ Spectrum DirectLight::OwnFluence(const BoxLight& light, int splits) const
   if (own.empty())
   {
     // What is told of a cell that is wholly covered lights nothing.
-    return this->BoxFluence(light, whole.Centre(), whole.Size(), splits);
+    return this->LitBoxFluence(light, whole, splits);
   }
   // Ways from the cell's centre tell little of those from what is left of it: light comes in from
   // the finer grids, from whatever smoke they hold.
@@ -131,7 +131,7 @@ Spectrum DirectLight::OwnFluence(const BoxLight& light, int splits) const
     part.Ways.Border = std::numeric_limits<double>::max();
     part.Ways.Entry =
       glm::max(part.Ways.Entry, Vec3(static_cast<double>(smoke.Extinction(light.Cell))));
-    const Spectrum value = this->BoxFluence(part, box.Centre(), box.Size(), splits);
+    const Spectrum value = this->LitBoxFluence(part, box, splits);
     volume += box.Volume();
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace smokevis
 {
@@ -20,36 +23,115 @@ constexpr std::uint64_t ShadowKey = 0x5ad0e;
 /// Where a cell is asked what it sees, from its centre in shares of its edges: faces of walls and
 /// lights often lie level with centres, and rounding would decide.
 constexpr Vec3 OffCentre(0.0137, -0.0211, 0.0173);
-/// Optical depth of a cell beyond which its light lies at its faces: weights need not follow it.
+/// Optical depth of a cell beyond which its light lies at its faces, where few ways would begin.
 constexpr double MostDepth = 4.0;
+
+/// A place in boxes for three numbers from 0 to 1, even over their volume.
+Vec3 PlaceIn(const std::vector<Box>& boxes, Vec3 share)
+{
+  double volume = 0.0;
+  for (const Box& box : boxes)
+  {
+    volume += box.Volume();
+  }
+  double before = share.x * volume;
+  std::size_t number = 0;
+  for (; number + 1 < boxes.size() && before >= boxes[number].Volume(); ++number)
+  {
+    before -= boxes[number].Volume();
+  }
+  const Box& box = boxes[number];
+  share.x = std::clamp(before / box.Volume(), 0.0, 1.0);
+  return box.Lower + share * box.Size();
+}
+
+double Strength(const LightGroup& group)
+{
+  return std::accumulate(group.Intensity.begin(), group.Intensity.end(), 0.0);
+}
+
+/// The leaf of a light on which a number from 0 to 1 falls, as often as it has a share in the
+/// light, and where in the leaf's part of it the number lies.
+std::pair<const LightGroup*, double> LeafOf(
+  const std::vector<LightGroup>& groups, const LightGroup& root, double share)
+{
+  const LightGroup* group = &root;
+  while (group->FirstChild >= 0)
+  {
+    const LightGroup& first = groups[group->FirstChild];
+    const LightGroup& second = groups[group->FirstChild + 1];
+    const double part = Strength(first) / (Strength(first) + Strength(second));
+    const bool within = share < part;
+    share = within ? share / part : (share - part) / (1.0 - part);
+    group = within ? &first : &second;
+  }
+  return {group, std::clamp(share, 0.0, 1.0)};
+}
 
 } // namespace
 
 double DirectLight::ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const
 {
+  struct Way
+  {
+    Vec3 Place, Target;
+    double Weight;
+    double Depth;
+  };
+  const std::vector<LightGroup>& groups = this->Scene_.Lights().Groups();
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Medium& smoke = this->Scene_.Smoke();
   const Box box = smoke.BoxOf(cell);
-  const double extinction = std::min(
-    smoke.Extinction(cell) * this->Scene_.ExtinctionScale(0), MostDepth / LargestEdge(box.Size()));
-  const double toCentre = glm::length(box.Centre() - root.Centre);
-  const EvenPoints<5> points(ShadowKey);
-  double all = 0.0;
-  double shown = 0.0;
-  for (std::uint64_t way = 0; way < ways; ++way)
+  std::vector<Box> parts;
+  if (smoke.Covered(cell))
   {
-    const auto point = points.Point(way);
-    const Vec3 place = box.Lower + Vec3(point[0], point[1], point[2]) * box.Size();
-    const Vec3 target = root.At(point[3], point[4]);
-    const Vec3 from = place - target;
-    if (!(glm::dot(from, root.Normal) > 0.0))
+    parts = smoke.OwnBoxes(cell);
+  }
+  if (parts.empty())
+  {
+    parts.push_back(box);
+  }
+  const double scale = this->Scene_.ExtinctionScale(0);
+  const double extinction = smoke.Extinction(cell);
+  // In thicker cells all places count.
+  const double beyond = std::max(0.0, extinction - MostDepth / (scale * LargestEdge(box.Size())));
+  // What lies between the cell and a light that is far dims all ways alike.
+  const bool far = root.Radius < PathRatio * glm::length(box.Centre() - root.Centre);
+  const bool even =
+    smoke.EvenAt(box.Centre()) && smoke.EvenAt(root.Corners[0]) && smoke.EvenAt(root.Corners[2]);
+  const EvenPoints<5> points(ShadowKey);
+  std::vector<Way> lit;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint64_t number = 0; number < ways; ++number)
+  {
+    const auto point = points.Point(number);
+    const auto [leaf, share] = LeafOf(groups, root, point[3]);
+    Way way{PlaceIn(parts, {point[0], point[1], point[2]}), leaf->At(share, point[4]), 0.0, 0.0};
+    const Vec3 from = way.Place - way.Target;
+    if (!(glm::dot(from, leaf->Normal) > 0.0))
     {
       continue;
     }
-    const double weight = root.AreaAt(point[3], point[4]) * PointLight(root, from) *
-                          std::exp(extinction * (toCentre - glm::length(from)));
+    way.Weight = leaf->AreaAt(share, point[4]) / leaf->Area * PointLight(*leaf, from);
+    const double length = glm::length(from);
+    const Vec3 direction = -from / length;
+    double begin = 0.0;
+    double end = length;
+    const double own = box.Clip(way.Place, 1.0 / direction, begin, end) ? end - begin : 0.0;
+    const double depth = far    ? extinction * own
+                         : even ? extinction * length
+                                : smoke.OpticalDepth(way.Place, direction, 0.0, length);
+    way.Depth = scale * (depth - beyond * own);
+    least = std::min(least, way.Depth);
+    lit.push_back(way);
+  }
+  double all = 0.0;
+  double shown = 0.0;
+  for (const Way& way : lit)
+  {
+    const double weight = way.Weight * std::exp(least - way.Depth);
     all += weight;
-    shown += this->Scene_.Shapes().Visible(place, target) ? weight : 0.0;
+    shown += this->Scene_.Shapes().Visible(way.Place, way.Target) ? weight : 0.0;
   }
   return all > 0.0 ? shown / all : 0.0;
 }
@@ -76,15 +158,15 @@ std::vector<double> DirectLight::ShownIn(
   // the light.
   const auto differs = [&](std::int64_t cell, const std::array<int, 3>& place, int axis, int side)
   {
-    std::array<int, 3> beside = place;
-    beside[axis] += side == 0 ? -1 : 1;
-    const bool within = beside[axis] >= 0 && beside[axis] < block.Size[axis];
-    const std::int64_t other =
-      within ? smoke.Cell(block, beside) : smoke.Neighbour(cell, axis, side);
+    const std::int64_t other = smoke.Neighbour(cell, axis, side);
     if (other < 0)
     {
       return false;
     }
+    std::array<int, 3> beside = place;
+    beside[axis] += side == 0 ? -1 : 1;
+    const bool within =
+      beside[axis] >= 0 && beside[axis] < block.Size[axis] && smoke.Cell(block, beside) == other;
     const Sight there = within ? sights[block.Number(beside)] : sightFrom(other);
     return there != sights[block.Number(place)] &&
            this->Scene_.Shapes().Visible(smoke.CellCentre(cell), smoke.CellCentre(other));

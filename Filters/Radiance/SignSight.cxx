@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace smokevis
@@ -14,11 +15,13 @@ namespace
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
 /// A block over which the optical depth from the eye changes by more than this is halved, so often
-/// at most: its middle stands for all of it, to the square of the change over 12.
+/// at most: its middle stands for all of it, to the square of the change over 24. Where smoke would
+/// cut an edge into more blocks than so many, twice the change is allowed, and so on.
 constexpr double LargestChange = 0.1;
 constexpr int MostHalvings = 5;
-/// Optical depth beyond which nothing is seen of a block, however bright.
-constexpr double DeepestBlock = 40.0;
+constexpr std::size_t MostBlocks = 48;
+/// Optical depth, beyond that to the clearest place, from which on nothing is seen beside that.
+constexpr double DeepestBlock = 20.0;
 /// Where along the other edge the depth is looked at.
 constexpr std::array<double, 2> Lines = {0.25, 0.75};
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
@@ -151,11 +154,18 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
       });
     return depths;
   };
-  std::vector<double> cut = {borders[0]};
+  std::vector<Depths> known;
+  double clearest = std::numeric_limits<double>::infinity();
+  for (const double border : borders)
+  {
+    known.push_back(depthsAt(border));
+    clearest = std::min(clearest, *std::min_element(known.back().begin(), known.back().end()));
+  }
+  std::vector<double> cut;
   // Halves what lies between two borders where that is too much, and adds the borders after the
   // first.
   const auto add = [&](const auto& self, double from, const Depths& first, double to,
-                     const Depths& last, int halvings) -> void
+                     const Depths& last, int halvings, double change) -> void
   {
     const double middle = 0.5 * (from + to);
     const Depths within = halvings > 0 ? depthsAt(middle) : first;
@@ -163,22 +173,24 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     for (std::size_t line = 0; line < Lines.size() && halvings > 0; ++line)
     {
       const auto [least, most] = std::minmax({first[line], within[line], last[line]});
-      uneven = uneven || (most - least > LargestChange && least < DeepestBlock);
+      uneven = uneven || (most - least > change && least < clearest + DeepestBlock);
     }
     if (!uneven)
     {
       cut.push_back(to);
       return;
     }
-    self(self, from, first, middle, within, halvings - 1);
-    self(self, middle, within, to, last, halvings - 1);
+    self(self, from, first, middle, within, halvings - 1, change);
+    self(self, middle, within, to, last, halvings - 1, change);
   };
-  Depths last = depthsAt(borders[0]);
-  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+  for (double change = LargestChange; cut.empty() || cut.size() > MostBlocks + borders.size();
+       change *= 2.0)
   {
-    const Depths next = depthsAt(borders[i + 1]);
-    add(add, borders[i], last, borders[i + 1], next, MostHalvings);
-    last = next;
+    cut.assign(1, borders[0]);
+    for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+    {
+      add(add, borders[i], known[i], borders[i + 1], known[i + 1], MostHalvings, change);
+    }
   }
   return cut;
 }

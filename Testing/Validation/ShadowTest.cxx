@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -106,6 +107,48 @@ TEST(Shadows, CellsBehindBeamSlatsAndDoor)
     report::Absolute("behind a door" + size, 0.0, AmissInRow(door, 1.1, 0.9, 4.25, 6.0), 0.05);
     report::Relative("power" + size, door.TheScene->Lights().Flux(0), PowerTakenUp(door), 0.004);
   }
+}
+
+// Light that is not even over the plate, or that smoke dims unlike from place to place: a sign
+// whose bright half stands behind a pillar, and a layer of smoke below a beam and a lamp in clear
+// air.
+TEST(Shadows, PowerBehindPillarAndInALayer)
+{
+  report::Head("Power taken up in black rooms with half shadows");
+  SceneDescription pillar;
+  pillar.Albedo = 0.0;
+  pillar.Grids = {scenes::UniformSmoke(Vec3(0.0), {3, 2, 2}, {24, 16, 16}, 0.4)};
+  scenes::AddRoom(pillar.Surfaces, Vec3(0.0), {3, 2, 2}, 0.5, 0.0);
+  scenes::AddBlock(pillar.Surfaces, {0.25, 0.5, 0}, {0.35, 0.9, 2}, 0.2, 0.0);
+  for (const auto& [y, luminance] : {std::pair(0.7, 1000.0), {1.1, 20.0}})
+  {
+    pillar.Emitters.push_back(
+      scenes::Plate({0.05, y, 1}, {1, 0, 0}, {0, 0, 1}, 0.4, 0.3, luminance, 0.0, 0));
+  }
+  const Solved behind(std::move(pillar), 0.1);
+  report::Relative(
+    "sign behind a pillar", behind.TheScene->Lights().Flux(0), PowerTakenUp(behind), 0.002);
+  for (const double extinction : {0.5, 4.0, 40.0})
+  {
+    SceneDescription layer = BeamRoom(0.0, 8);
+    const auto above = layer.Grids[0].Extinction.size() / 2;
+    std::fill(layer.Grids[0].Extinction.begin(), layer.Grids[0].Extinction.begin() + above,
+      static_cast<float>(extinction));
+    std::fill(layer.Grids[0].Extinction.begin() + above, layer.Grids[0].Extinction.end(), 0.0F);
+    const Solved solved(std::move(layer), 0.1);
+    report::Relative("layer of " + std::to_string(extinction).substr(0, 4) + " per m",
+      solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.004);
+  }
+}
+
+// A block so close to a lamp that it hides a strip of it and none of its centre and corners.
+TEST(Shadows, StripOfALampHidden)
+{
+  report::Head("Power taken up where a thin block hides a strip of a lamp");
+  SceneDescription scene = LampRoom(0.0, 8);
+  scenes::AddBlock(scene.Surfaces, {3.08, 0.8, 2.74}, {3.16, 2.2, 2.83}, 0.2, 0.0);
+  const Solved solved(std::move(scene), 0.1);
+  report::Relative("power", solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.002);
 }
 
 // The veil of rays along a beam, below the lamp that it hides a part of.
