@@ -121,6 +121,14 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
 void PlateGather::AddTasks(std::size_t index, std::vector<Task>& tasks) const
 {
   const Sign& sign = this->Scene_.Lights().Signs()[index];
+  const bool emits = std::any_of(sign.Cells.begin(), sign.Cells.end(),
+    [&](std::size_t cell)
+    { return this->Scene_.Lights().Cells()[cell].Luminance[this->Band_] > 0.0; });
+  if (!emits)
+  {
+    tasks.push_back({index, sign.Cells});
+    return;
+  }
   if (sign.Cells.size() <= MostOwnCells)
   {
     for (const std::size_t cell : sign.Cells)
