@@ -21,9 +21,9 @@ namespace
 constexpr double LeastStep = 0.1;
 constexpr double StepGrowth = 4.0;
 constexpr int MostCuts = 4;
-/// Places along a border where smoke is looked at, and where in its part of the border each lies: off
-/// the middle, where faces of cells often are and rounding would decide; how far in front of the
-/// plate, and how far on either side, as shares of the plate's reach across the border.
+/// Places along a border where smoke is looked at, and where in its part of the border each lies:
+/// off the middle, where faces of cells often are and rounding would decide; how far in front of
+/// the plate, and how far on either side, as shares of the plate's reach across the border.
 constexpr int Places = 8;
 constexpr double OffMiddle = 0.4637;
 constexpr double InFront = 1e-3;
