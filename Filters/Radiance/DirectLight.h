@@ -189,8 +189,7 @@ private:
   std::vector<double> ShownIn(std::size_t light, const Medium::Block& block, bool roughly) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
   /// its light gets behind it.
-  static std::optional<Box> BeforePlate(
-    const LightGroup& root, const Vec3& centre, const Vec3& size);
+  static std::optional<Box> BeforePlate(const LightGroup& root, const Box& box);
   /// Mean over a box within the cell, which the plate's plane may cut.
   /// @param splits how often it may be split
   Spectrum LitBoxFluence(const BoxLight& light, const Box& box, int splits) const;

@@ -92,20 +92,15 @@ double DirectLight::PointLight(const LightGroup& light, const Vec3& way)
   return cosine / square * light.Law.Relative(way / distance, cosine);
 }
 
-std::optional<Box> DirectLight::BeforePlate(
-  const LightGroup& root, const Vec3& centre, const Vec3& size)
+std::optional<Box> DirectLight::BeforePlate(const LightGroup& root, const Box& box)
 {
-  if (!root.Plane())
+  for (int axis = 0; axis < 3 && root.Plane(); ++axis)
   {
-    return std::nullopt;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double height = (centre[axis] - root.Centre[axis]) * root.Normal[axis];
-    const double reach = 0.5 * size[axis];
-    if (std::abs(root.Normal[axis]) > 1.0 - Upright && std::abs(height) < (1.0 - Upright) * reach)
+    const double height = std::abs(box.Centre()[axis] - root.Centre[axis]);
+    if (std::abs(root.Normal[axis]) > 1.0 - Upright &&
+        height < (1.0 - Upright) * 0.5 * box.Size()[axis])
     {
-      Box front{centre - 0.5 * size, centre + 0.5 * size};
+      Box front = box;
       (root.Normal[axis] > 0.0 ? front.Lower : front.Upper)[axis] = root.Centre[axis];
       return front;
     }
@@ -115,15 +110,14 @@ std::optional<Box> DirectLight::BeforePlate(
 
 Spectrum DirectLight::LitBoxFluence(const BoxLight& light, const Box& box, int splits) const
 {
-  const std::optional<Box> front =
-    BeforePlate(this->Scene_.Lights().Root(light.Index), box.Centre(), box.Size());
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const std::optional<Box> front = BeforePlate(root, box);
   if (!front)
   {
     return this->BoxFluence(light, box.Centre(), box.Size(), splits);
   }
   BoxLight moved = light;
-  moved.Ways = light.Ways.Moved(
-    box.Centre() - this->Scene_.Lights().Root(light.Index).Centre, front->Centre() - box.Centre());
+  moved.Ways = light.Ways.Moved(box.Centre() - root.Centre, front->Centre() - box.Centre());
   Spectrum value = this->BoxFluence(moved, front->Centre(), front->Size(), splits);
   for (double& each : value)
   {

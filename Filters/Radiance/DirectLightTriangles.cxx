@@ -81,8 +81,7 @@ std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   const double area = AreaOf(corners);
   for (int part = 0; part < front.Count; ++part)
   {
-    const double share =
-      front.Count == 1 && front.Parts[0] == corners ? 1.0 : AreaOf(front.Parts[part]) / area;
+    const double share = AreaOf(front.Parts[part]) / area;
     this->AddTriangle(light, front.Parts[part], normal, 0, share, sum);
   }
   return sum;
