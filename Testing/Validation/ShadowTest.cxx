@@ -151,6 +151,47 @@ TEST(Shadows, StripOfALampHidden)
   report::Relative("power", solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.002);
 }
 
+// What README's limits say: of a pole thinner than a cell, and of a luminous plate of tens of
+// metres before patches that are as large.
+TEST(Shadows, PoleAndHugePlate)
+{
+  report::Head("Power taken up: a pole of 4 cm in cells of 0.25 m; a plate of 36 m");
+  for (const double lamp : {0.1, 0.6})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.0;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {4, 3, 3}, {16, 12, 12}, 0.4)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), {4, 3, 3}, 0.5, 0.0);
+    scenes::AddBlock(scene.Surfaces, {2.27, 1.52, 0}, {2.31, 1.56, 3}, 0.2, 0.0);
+    scene.Emitters = {scenes::Plate({0.4, 1.5, 1.5}, {1, 0, 0}, {0, 0, 1}, lamp, lamp, 1000.0)};
+    const Solved solved(std::move(scene), 0.1);
+    report::Relative("pole, lamp of " + std::to_string(lamp).substr(0, 3) + " m",
+      solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.003);
+  }
+  SceneDescription hall;
+  hall.Albedo = 0.0;
+  scenes::AddRoom(hall.Surfaces, Vec3(-100, -100, -100), Vec3(100, 100, 3), 50.0, 0.0);
+  hall.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(0.8), {16, 16, 16}, 1.0)};
+  hall.Emitters = {scenes::Plate({0.4, 0.4, 0.95}, {0, 0, -1}, {0, 1, 0}, 36.0, 36.0, 1000.0)};
+  const Solved solved(std::move(hall), 0.1);
+  report::Relative("plate of 36 m", solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.08);
+}
+
+// In the cleft right below a beam cells are too coarse for what is seen of the lamp at either side.
+TEST(Shadows, CleftBelowABeam)
+{
+  report::Head("Veil right below a beam, along a border between cells, against the path tracer");
+  for (const int cells : {4, 8})
+  {
+    const Solved solved(BeamRoom(0.7, cells), 0.03);
+    const Ray ray{{3.0, 0.01, 2.2}, {0, 1, 0}};
+    const RayLight light = solved.Trace(ray);
+    const Estimate expected = ReferenceIntegrator(*solved.TheScene).Veil(ray, 100000, 1);
+    report::Relative("cells of 1/" + std::to_string(cells) + " m", expected.Mean, light.Veil(), 0.3,
+      std::hypot(expected.StandardError, StandardError(light.VeilMultiple)));
+  }
+}
+
 // The veil of rays along a beam, below the lamp that it hides a part of.
 TEST(Shadows, VeilAlongABeam)
 {
