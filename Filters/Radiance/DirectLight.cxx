@@ -49,12 +49,38 @@ constexpr int FewShadowPlaces = 5;
 /// through fractions of a plate, where rounding would decide.
 constexpr glm::dvec2 ShadowShift(0.4637, 0.5417);
 
-/// A place of the lattice, 0 to 1 along both edges.
-glm::dvec2 ShadowPlace(int number)
+/// The places of the lattice, 0 to 1 along both edges.
+constexpr std::array<glm::dvec2, ShadowPlaces> MakeLattice()
 {
-  return (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
-         static_cast<double>(ShadowPlaces);
+  std::array<glm::dvec2, ShadowPlaces> places{};
+  for (int number = 0; number < ShadowPlaces; ++number)
+  {
+    places[number] = (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
+                     static_cast<double>(ShadowPlaces);
+  }
+  return places;
 }
+
+constexpr std::array<glm::dvec2, ShadowPlaces> ShadowLattice = MakeLattice();
+
+/// The centre and the corners, which lie in from the edges: those may touch what the light hangs
+/// on.
+constexpr double Inset = 0.04;
+constexpr std::array<glm::dvec2, 5> CornerPlaces = {glm::dvec2(0.5, 0.5), glm::dvec2(Inset, Inset),
+  glm::dvec2(Inset, 1.0 - Inset), glm::dvec2(1.0 - Inset, Inset),
+  glm::dvec2(1.0 - Inset, 1.0 - Inset)};
+
+/// These and some of the lattice.
+constexpr auto FewPlaces = []
+{
+  std::array<glm::dvec2, CornerPlaces.size() + ShadowPlaces / FewShadowPlaces> places{};
+  std::copy(CornerPlaces.begin(), CornerPlaces.end(), places.begin());
+  for (std::size_t i = CornerPlaces.size(); i < places.size(); ++i)
+  {
+    places[i] = ShadowLattice[(i - CornerPlaces.size()) * FewShadowPlaces];
+  }
+  return places;
+}();
 
 int SplitsOf(const EmissionLaw& law)
 {
@@ -99,56 +125,54 @@ double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) c
   }
 }
 
+bool DirectLight::Small(const LightGroup& group, const Vec3& point)
+{
+  return group.Radius < SmallRatio * glm::length(group.Centre - point);
+}
+
 DirectLight::Sight DirectLight::SightOf(const LightGroup& group, const Vec3& point) const
 {
-  if (group.Radius < SmallRatio * glm::length(group.Centre - point))
+  if (Small(group, point))
   {
     return this->Scene_.Shapes().Visible(point, group.Centre) ? Sight::Whole : Sight::None;
   }
   return this->SightOfAll(group, point);
 }
 
+std::vector<bool> DirectLight::Seen(
+  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
+{
+  std::vector<LineOfSight> lines;
+  lines.reserve(places.size());
+  for (const glm::dvec2& place : places)
+  {
+    lines.push_back({point, group.At(place.x, place.y)});
+  }
+  return this->Scene_.Shapes().Visible(lines);
+}
+
+DirectLight::Sight DirectLight::SightOf(
+  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
+{
+  const std::vector<bool> seen = this->Seen(group, point, places);
+  const auto count = std::count(seen.begin(), seen.end(), true);
+  return count == 0 ? Sight::None : (count == std::ssize(seen) ? Sight::Whole : Sight::Parted);
+}
+
 DirectLight::Sight DirectLight::SightOfCorners(const LightGroup& group, const Vec3& point) const
 {
-  constexpr double inset = 0.04;
-  const Geometry& shapes = this->Scene_.Shapes();
-  const bool centre = shapes.Visible(point, group.At(0.5, 0.5));
-  for (const double u : {inset, 1.0 - inset})
-  {
-    for (const double v : {inset, 1.0 - inset})
-    {
-      if (shapes.Visible(point, group.At(u, v)) != centre)
-      {
-        return Sight::Parted;
-      }
-    }
-  }
-  return centre ? Sight::Whole : Sight::None;
+  return this->SightOf(group, point, CornerPlaces);
 }
 
 DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& point) const
 {
-  const Sight sight = this->SightOfCorners(group, point);
-  for (int i = 0; i < ShadowPlaces && sight != Sight::Parted; i += FewShadowPlaces)
-  {
-    const glm::dvec2 place = ShadowPlace(i);
-    if (this->Scene_.Shapes().Visible(point, group.At(place.x, place.y)) != (sight == Sight::Whole))
-    {
-      return Sight::Parted;
-    }
-  }
-  return sight;
+  return this->SightOf(group, point, FewPlaces);
 }
 
 double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
 {
-  int seen = 0;
-  for (int i = 0; i < ShadowPlaces; ++i)
-  {
-    const glm::dvec2 place = ShadowPlace(i);
-    seen += this->Scene_.Shapes().Visible(point, group.At(place.x, place.y)) ? 1 : 0;
-  }
-  return static_cast<double>(seen) / ShadowPlaces;
+  const std::vector<bool> seen = this->Seen(group, point, ShadowLattice);
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / ShadowPlaces;
 }
 
 double DirectLight::Ways::At(const Vec3& place) const
@@ -264,7 +288,7 @@ void DirectLight::AddLeaf(
                                                    EvenDepth;
   double weights = 0.0;
   Spectrum weighted{};
-  const auto add = [&](double u, double v, double share)
+  const auto add = [&](double u, double v, double share, bool seen)
   {
     const Vec3 target = leaf.At(u, v);
     const Vec3 to = target - point;
@@ -277,7 +301,7 @@ void DirectLight::AddLeaf(
       weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
     }
     weights += weight;
-    if (parted && !this->Scene_.Shapes().Visible(point, target))
+    if (!seen)
     {
       return;
     }
@@ -290,10 +314,10 @@ void DirectLight::AddLeaf(
   };
   if (parted)
   {
-    for (int i = 0; i < ShadowPlaces; ++i)
+    const std::vector<bool> seen = this->Seen(leaf, point, ShadowLattice);
+    for (std::size_t i = 0; i < seen.size(); ++i)
     {
-      const glm::dvec2 place = ShadowPlace(i);
-      add(place.x, place.y, 1.0);
+      add(ShadowLattice[i].x, ShadowLattice[i].y, 1.0, seen[i]);
     }
   }
   else if (few || thin)
@@ -302,7 +326,7 @@ void DirectLight::AddLeaf(
     {
       for (const double v : Nodes2)
       {
-        add(u, v, 1.0);
+        add(u, v, 1.0, true);
       }
     }
   }
@@ -312,7 +336,7 @@ void DirectLight::AddLeaf(
     {
       for (int j = 0; j < 3; ++j)
       {
-        add(Nodes3[i], Nodes3[j], Weights3[i] * Weights3[j]);
+        add(Nodes3[i], Nodes3[j], Weights3[i] * Weights3[j], true);
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "Types.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace smokevis
@@ -126,6 +127,14 @@ private:
     Parted,
     Whole
   };
+  /// Whether a group is seen whole or not at all, for it is far.
+  static bool Small(const LightGroup& group, const Vec3& point);
+  /// Which of the places of a group, 0 to 1 along both edges, are seen from a point.
+  std::vector<bool> Seen(
+    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
+  /// As places of a group tell.
+  Sight SightOf(
+    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
   /// As its centre and its corners tell.
   Sight SightOfCorners(const LightGroup& group, const Vec3& point) const;
   /// As these and eleven places between them tell.
@@ -183,8 +192,11 @@ private:
   /// would get.
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
-  /// The same of all cells of a block: of most of them their centres tell, others are crossed by
-  /// the edge of a shadow. Cells that walls cut, or that the light is near to, are not asked.
+  /// What cells see of a light from right beside their centres.
+  std::vector<Sight> SightsFrom(const LightGroup& root, std::span<const std::int64_t> cells) const;
+  /// Share of a light that is not hidden from the cells of a block: of most of them their centres
+  /// tell, others are crossed by the edge of a shadow. Cells that walls cut, or that the light is
+  /// near to, are not asked.
   /// @param roughly whether their centres do for all
   std::vector<double> ShownIn(std::size_t light, const Medium::Block& block, bool roughly) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of

@@ -125,69 +125,113 @@ double DirectLight::ShownShare(std::size_t light, std::int64_t cell, std::uint64
     least = std::min(least, way.Depth);
     lit.push_back(way);
   }
-  double all = 0.0;
-  double shown = 0.0;
+  std::vector<LineOfSight> lines;
+  lines.reserve(lit.size());
   for (const Way& way : lit)
   {
-    const double weight = way.Weight * std::exp(least - way.Depth);
+    lines.push_back({way.Place, way.Target});
+  }
+  const std::vector<bool> seen = this->Scene_.Shapes().Visible(lines);
+  double all = 0.0;
+  double shown = 0.0;
+  for (std::size_t i = 0; i < lit.size(); ++i)
+  {
+    const double weight = lit[i].Weight * std::exp(least - lit[i].Depth);
     all += weight;
-    shown += this->Scene_.Shapes().Visible(way.Place, way.Target) ? weight : 0.0;
+    shown += seen[i] ? weight : 0.0;
   }
   return all > 0.0 ? shown / all : 0.0;
+}
+
+std::vector<DirectLight::Sight> DirectLight::SightsFrom(
+  const LightGroup& root, std::span<const std::int64_t> cells) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  // What lies behind the plate gets none of it, seen or not.
+  std::vector<Sight> sights(cells.size(), Sight::Whole);
+  std::vector<LineOfSight> lines;
+  std::vector<std::size_t> ofLine;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const Vec3 size = smoke.CellSize(cells[i]);
+    const Vec3 place = smoke.CellCentre(cells[i]) + OffCentre * size;
+    if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(size))
+    {
+      continue;
+    }
+    if (Small(root, place))
+    {
+      lines.push_back({place, root.Centre});
+      ofLine.push_back(i);
+    }
+    else
+    {
+      sights[i] = this->SightOfAll(root, place);
+    }
+  }
+  const std::vector<bool> seen = this->Scene_.Shapes().Visible(lines);
+  for (std::size_t line = 0; line < lines.size(); ++line)
+  {
+    sights[ofLine[line]] = seen[line] ? Sight::Whole : Sight::None;
+  }
+  return sights;
 }
 
 std::vector<double> DirectLight::ShownIn(
   std::size_t light, const Medium::Block& block, bool roughly) const
 {
-  const LightGroup& root = this->Scene_.Lights().Root(light);
   const Medium& smoke = this->Scene_.Smoke();
-  const auto sightFrom = [&](std::int64_t cell)
+  std::vector<std::int64_t> cells;
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place) { cells.push_back(smoke.Cell(block, place)); });
+  // Of each cell of the block, where among them those across its faces are.
+  constexpr std::size_t NoCell = std::numeric_limits<std::size_t>::max();
+  std::vector<std::array<std::size_t, 6>> beside(roughly ? 0 : block.Cells());
+  if (!roughly)
   {
-    const Vec3 size = smoke.CellSize(cell);
-    const Vec3 centre = smoke.CellCentre(cell) + OffCentre * size;
-    // What lies behind the plate gets none of it, seen or not.
-    const double height = glm::dot(centre - root.Centre, root.Normal);
-    return height < -root.Radius - 0.6 * glm::length(size) ? Sight::Whole
-                                                           : this->SightOf(root, centre);
-  };
-  std::vector<Sight> sights;
-  sights.reserve(block.Cells());
-  block.ForEachCell([&](const std::array<int, 3>& place)
-    { sights.push_back(sightFrom(smoke.Cell(block, place))); });
-  // The edge of a shadow lies between the centres of cells that see each other, but not the same of
-  // the light.
-  const auto differs = [&](std::int64_t cell, const std::array<int, 3>& place, int axis, int side)
-  {
-    const std::int64_t other = smoke.Neighbour(cell, axis, side);
-    if (other < 0)
-    {
-      return false;
-    }
-    std::array<int, 3> beside = place;
-    beside[axis] += side == 0 ? -1 : 1;
-    const bool within =
-      beside[axis] >= 0 && beside[axis] < block.Size[axis] && smoke.Cell(block, beside) == other;
-    const Sight there = within ? sights[block.Number(beside)] : sightFrom(other);
-    return there != sights[block.Number(place)] &&
-           this->Scene_.Shapes().Visible(smoke.CellCentre(cell), smoke.CellCentre(other));
-  };
+    block.ForEachCell(
+      [&](const std::array<int, 3>& place)
+      {
+        for (int face = 0; face < 6; ++face)
+        {
+          const int axis = face / 2;
+          std::array<int, 3> next = place;
+          next[axis] += face % 2 == 0 ? -1 : 1;
+          const std::int64_t other = smoke.Neighbour(block, place, axis, face % 2);
+          std::size_t& number = beside[block.Number(place)][face];
+          number = other < 0 ? NoCell : cells.size();
+          if (next[axis] >= 0 && next[axis] < block.Size[axis] && smoke.Cell(block, next) == other)
+          {
+            number = block.Number(next);
+          }
+          else if (other >= 0)
+          {
+            cells.push_back(other);
+          }
+        }
+      });
+  }
+  const std::vector<Sight> sights = this->SightsFrom(this->Scene_.Lights().Root(light), cells);
   std::vector<double> shares;
   shares.reserve(block.Cells());
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
+  for (std::size_t cell = 0; cell < block.Cells(); ++cell)
+  {
+    // The edge of a shadow lies between the centres of cells that see each other, but not the same
+    // of the light.
+    const auto differs = [&](std::size_t other)
     {
-      const std::int64_t cell = smoke.Cell(block, place);
-      const Sight sight = sights[block.Number(place)];
-      // Others are measured by themselves.
-      const bool asked = !smoke.Parts().Find(cell) && !this->KeptFluence(light, cell);
-      bool crossed = asked && sight == Sight::Parted;
-      for (int face = 0; face < 6 && asked && !crossed && !roughly; ++face)
-      {
-        crossed = differs(cell, place, face / 2, face % 2);
-      }
-      shares.push_back(
-        crossed ? this->ShownShare(light, cell, ShadowWays) : (sight == Sight::Whole ? 1.0 : 0.0));
-    });
+      return other != NoCell && sights[other] != sights[cell] &&
+             this->Scene_.Shapes().Visible(
+               smoke.CellCentre(cells[cell]), smoke.CellCentre(cells[other]));
+    };
+    // Others are measured by themselves.
+    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->KeptFluence(light, cells[cell]);
+    const bool crossed =
+      asked && (sights[cell] == Sight::Parted ||
+                 (!roughly && std::any_of(beside[cell].begin(), beside[cell].end(), differs)));
+    shares.push_back(crossed ? this->ShownShare(light, cells[cell], ShadowWays)
+                             : (sights[cell] == Sight::Whole ? 1.0 : 0.0));
+  }
   return shares;
 }
 

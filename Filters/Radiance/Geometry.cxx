@@ -67,6 +67,9 @@ std::optional<RTCRay> MakeRay(const Vec3& origin, const Vec3& direction, double 
   return within && length > 0.0 ? std::optional<RTCRay>(ray) : std::nullopt;
 }
 
+/// Rays of one packet: as many as the widest registers hold. Narrower machines take them in parts.
+constexpr std::size_t PacketSize = 16;
+
 Hit OtherSide(Hit hit)
 {
   hit.Side = 1 - hit.Side;
@@ -83,6 +86,30 @@ RTCRayHit MakeQuery(const RTCRay& ray)
 }
 
 } // namespace
+
+struct TriangleTree::Packet
+{
+  RTCRay16 Rays{};
+  /// Those that count: -1, others: 0.
+  alignas(64) std::array<int, PacketSize> Valid{};
+
+  void Set(std::size_t number, const RTCRay& ray)
+  {
+    this->Valid[number] = -1;
+    this->Rays.org_x[number] = ray.org_x;
+    this->Rays.org_y[number] = ray.org_y;
+    this->Rays.org_z[number] = ray.org_z;
+    this->Rays.dir_x[number] = ray.dir_x;
+    this->Rays.dir_y[number] = ray.dir_y;
+    this->Rays.dir_z[number] = ray.dir_z;
+    this->Rays.tnear[number] = ray.tnear;
+    this->Rays.tfar[number] = ray.tfar;
+    this->Rays.time[number] = ray.time;
+    this->Rays.mask[number] = ray.mask;
+    this->Rays.id[number] = ray.id;
+    this->Rays.flags[number] = ray.flags;
+  }
+};
 
 TriangleTree::Device TriangleTree::NewDevice()
 {
@@ -218,6 +245,22 @@ bool TriangleTree::Occluded(
   return ray->tfar < 0.0F;
 }
 
+void TriangleTree::LeaveClear(Packet& packet) const
+{
+  if (this->Empty())
+  {
+    return;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(packet.Valid.data(), this->Tree_.get(), &context, &packet.Rays);
+  for (std::size_t i = 0; i < PacketSize; ++i)
+  {
+    packet.Valid[i] = packet.Valid[i] != 0 && !(packet.Rays.tfar[i] < 0.0F) ? -1 : 0;
+  }
+}
+
 Geometry::Geometry(
   const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize, double coreSize)
 {
@@ -235,13 +278,13 @@ Geometry::Geometry(
   {
     return;
   }
-  const Vec3 centre = 0.5 * (lower + upper);
+  this->Centre_ = 0.5 * (lower + upper);
   const double size = std::max(sceneSize, glm::length(upper - lower));
   this->Tolerance_ = std::max(
     RelativeTolerance * (coreSize > 0.0 ? std::min(coreSize, size) : size), RoundingShare * size);
   const TriangleTree::Device device = TriangleTree::NewDevice();
-  this->Surfaces_ = TriangleTree(device, surfaces, false, centre, this->Tolerance_);
-  this->Emitters_ = TriangleTree(device, emitters, true, centre, this->Tolerance_);
+  this->Surfaces_ = TriangleTree(device, surfaces, false, this->Centre_, this->Tolerance_);
+  this->Emitters_ = TriangleTree(device, emitters, true, this->Centre_, this->Tolerance_);
 }
 
 bool Geometry::Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const
@@ -400,16 +443,52 @@ bool Geometry::Occluded(const Vec3& origin, const Vec3& direction, double begin,
          this->Emitters_.Occluded(origin, direction, begin, end);
 }
 
+double Geometry::Gap(double length) const
+{
+  // Single precision places a far shape to a share of its distance.
+  return std::max(2.0 * this->Tolerance_, 2e-6 * length);
+}
+
 bool Geometry::Visible(const Vec3& from, const Vec3& to) const
 {
   const double length = glm::length(to - from);
-  // Single precision places a far shape to a share of its distance.
-  const double gap = std::max(2.0 * this->Tolerance_, 2e-6 * length);
+  const double gap = this->Gap(length);
   if (length <= 2.0 * gap)
   {
     return true;
   }
   return !this->Occluded(from, (to - from) / length, gap, length - gap);
+}
+
+std::vector<bool> Geometry::Visible(std::span<const LineOfSight> lines) const
+{
+  std::vector<bool> visible(lines.size(), true);
+  for (std::size_t first = 0; first < lines.size() && !this->Empty(); first += PacketSize)
+  {
+    const std::size_t count = std::min(PacketSize, lines.size() - first);
+    TriangleTree::Packet packet;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const LineOfSight& line = lines[first + i];
+      const double length = glm::length(line.To - line.From);
+      const double gap = this->Gap(length);
+      const Vec3 direction = (line.To - line.From) / length;
+      const std::optional<RTCRay> ray =
+        MakeRay(line.From + gap * direction - this->Centre_, direction, length - 2.0 * gap);
+      if (ray)
+      {
+        packet.Set(i, *ray);
+      }
+    }
+    const auto asked = packet.Valid;
+    this->Surfaces_.LeaveClear(packet);
+    this->Emitters_.LeaveClear(packet);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      visible[first + i] = packet.Valid[i] == asked[i];
+    }
+  }
+  return visible;
 }
 
 bool Geometry::SeesBacks(const Vec3& point, std::span<const Vec3> directions) const

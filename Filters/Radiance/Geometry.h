@@ -16,6 +16,12 @@ struct RTCSceneTy;
 namespace smokevis
 {
 
+/// A straight line between two points.
+struct LineOfSight
+{
+  Vec3 From, To;
+};
+
 /// Where a ray meets a shape.
 struct Hit
 {
@@ -35,6 +41,8 @@ struct Hit
 class TriangleTree
 {
 public:
+  /// Rays that are traced at once.
+  struct Packet;
   using Device = std::shared_ptr<RTCDeviceTy>;
   static Device NewDevice();
 
@@ -62,6 +70,8 @@ public:
     std::vector<Hit>& hits) const;
   /// Whether any triangle lies between two distances.
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
+  /// Leaves those of the rays that no triangle lies on.
+  void LeaveClear(Packet& packet) const;
 
 private:
   /// A hit at a distance that is known to single precision.
@@ -138,6 +148,9 @@ public:
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Whether the straight line between two points is clear but for what touches its ends.
   bool Visible(const Vec3& from, const Vec3& to) const;
+  /// The same of each of many lines; those beside one another cost a fraction of lines asked for
+  /// one by one.
+  std::vector<bool> Visible(std::span<const LineOfSight> lines) const;
   /// Whether rays into these directions, unit vectors, meet backs of surfaces alone, as they do
   /// within a solid. Plates tell nothing.
   bool SeesBacks(const Vec3& point, std::span<const Vec3> directions) const;
@@ -147,6 +160,8 @@ private:
   {
     return hit.Emitter ? this->Emitters_ : this->Surfaces_;
   }
+  /// How far shapes lie from the ends of a line, at most, that only touch it there [m].
+  double Gap(double length) const;
   /// Whether a plate that was hit lies in the surface that was hit, to within the tolerance.
   bool Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const;
   /// Of the surfaces that a line meets within a gap, the first of the model of those that lie in
@@ -164,6 +179,8 @@ private:
 
   TriangleTree Surfaces_, Emitters_;
   std::vector<std::uint32_t> Bodies_;
+  /// Where single precision is finest.
+  Vec3 Centre_{0.0};
   double Tolerance_ = 0.0;
 };
 

@@ -121,6 +121,23 @@ public:
     return this->Grids_[block.Grid].Cell(
       {block.First[0] + place[0], block.First[1] + place[1], block.First[2] + place[2]});
   }
+  /// Neighbour of a cell of a block.
+  std::int64_t Neighbour(
+    const Block& block, const std::array<int, 3>& place, int axis, int side) const
+  {
+    std::array<int, 3> next = place;
+    next[axis] += side == 0 ? -1 : 1;
+    const int index = block.First[axis] + next[axis];
+    if (!this->Overlap_ && index >= 0 && index < this->Grids_[block.Grid].Size[axis])
+    {
+      const std::int64_t cell = this->Cell(block, next);
+      if (!this->Parts_.Find(cell))
+      {
+        return cell;
+      }
+    }
+    return this->Neighbour(this->Cell(block, place), axis, side);
+  }
 
   /// Calls visit(cell) for the cells of all grids that reach into a box.
   template <class Visit> void ForCellsIn(const Vec3& low, const Vec3& high, Visit&& visit) const
