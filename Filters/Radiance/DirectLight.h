@@ -258,8 +258,11 @@ private:
   /// None where the light is not far. The less a light may add to what the cells hold, the rougher
   /// its ways may be told.
   /// @param whole whether ways are walked where they are not told; else there are none then
-  std::optional<BlockWays> WaysFrom(const LightGroup& root, const Medium::Block& block, bool whole,
-    const std::vector<Spectrum>& sums) const;
+  std::optional<BlockWays> WaysFrom(const LightWays& toLight, const Medium::Block& block,
+    bool whole, const std::vector<Spectrum>& sums) const;
+  /// The same for a block within the one that the ways to the light are kept of.
+  BlockWork AddBlockFluence(std::size_t light, const LightWays& toLight, const Medium::Block& block,
+    bool skips, std::vector<Spectrum>& sums) const;
   /// @param level how often it was split from a whole triangle
   void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,
     double weight, std::array<Spectrum, 2>& sum) const;

@@ -1,7 +1,10 @@
 #include "LightWays.h"
 
+#include "ToldWays.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smokevis
 {
@@ -13,7 +16,83 @@ namespace
 /// still count as even.
 constexpr double EvenDepth = 0.1;
 
+/// Ways from the layer of cells across a face of a block.
+class LayerWays
+{
+public:
+  /// @param allowed error of an optical depth where ways tell of others; none: all are walked
+  LayerWays(const Medium& smoke, const LightWays& ways, const Medium::Block& block, int axis,
+    int side, const std::optional<double>& allowed)
+      : Smoke_(smoke), Ways_(ways), Block_(block), Axis_(axis)
+  {
+    this->Block_.First[axis] += side == 0 ? -1 : block.Size[axis];
+    this->Block_.Size[axis] = 1;
+    this->There_ = smoke.Holds(this->Block_);
+    ToldWays told(smoke, ways, this->Block_);
+    if (allowed && this->There_ && told.WalkCorners() && told.CornersTell(*allowed))
+    {
+      told.TellRest(2.0 * *allowed);
+      this->Told_ = told.Extinction();
+    }
+  }
+
+  /// Mean along the way from a cell beside one of the block [1/m]; none where that is not one of
+  /// the layer, but of another grid, or a part of a cell.
+  std::optional<double> Extinction(std::array<int, 3> place, std::int64_t beside) const
+  {
+    place[this->Axis_] = 0;
+    if (!this->There_ || this->Smoke_.Cell(this->Block_, place) != beside)
+    {
+      return std::nullopt;
+    }
+    return this->Told_.empty() ? this->Ways_.Extinction(this->Block_, place)
+                               : this->Told_[this->Block_.Number(place)];
+  }
+
+private:
+  const Medium& Smoke_;
+  const LightWays& Ways_;
+  Medium::Block Block_;
+  int Axis_;
+  bool There_ = false;
+  std::vector<double> Told_;
+};
+
 } // namespace
+
+LightWays::LightWays(
+  const Medium& smoke, double scale, const LightGroup& light, const Medium::Block& block)
+    : Smoke_(smoke), Scale_(scale), Light_(light), Kept_(block)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Kept_.First[axis] -= 1;
+    this->Kept_.Size[axis] += 2;
+  }
+  this->Walked_.assign(this->Kept_.Cells(), std::numeric_limits<double>::quiet_NaN());
+}
+
+double LightWays::Extinction(const Medium::Block& block, const std::array<int, 3>& place) const
+{
+  std::array<int, 3> kept;
+  bool within = !this->Walked_.empty() && block.Grid == this->Kept_.Grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    kept[axis] = block.First[axis] + place[axis] - this->Kept_.First[axis];
+    within = within && kept[axis] >= 0 && kept[axis] < this->Kept_.Size[axis];
+  }
+  const std::int64_t cell = this->Smoke_.Cell(block, place);
+  if (!within)
+  {
+    return this->Extinction(cell);
+  }
+  double& walked = this->Walked_[this->Kept_.Number(kept)];
+  if (std::isnan(walked))
+  {
+    walked = this->Extinction(cell);
+  }
+  return walked;
+}
 
 double LightWays::Extinction(std::int64_t cell) const
 {
@@ -33,11 +112,13 @@ CellWay LightWays::From(std::int64_t cell, const std::optional<double>& extincti
   return way;
 }
 
-CellWay LightWays::FromBeside(std::int64_t cell, const CellWay& way, int axis, int side) const
+template <class Known>
+CellWay LightWays::FromBeside(
+  std::int64_t cell, const CellWay& way, int axis, int side, Known&& known) const
 {
   if (const std::int64_t other = this->Smoke_.Neighbour(cell, axis, side); other >= 0)
   {
-    return this->From(other);
+    return this->From(other, known(other));
   }
   // Outside of all meshes there is clear air.
   CellWay outside{way.Centre, way.Size};
@@ -57,8 +138,7 @@ bool LightWays::Even(const CellWay& way) const
          EvenDepth * way.Distance;
 }
 
-template <class Beside>
-Deepening LightWays::Around(std::int64_t cell, const CellWay& way, Beside&& beside) const
+template <class Beside> Deepening LightWays::Around(const CellWay& way, Beside&& beside) const
 {
   if (this->Even(way))
   {
@@ -69,8 +149,7 @@ Deepening LightWays::Around(std::int64_t cell, const CellWay& way, Beside&& besi
   {
     for (int side = 0; side < 2; ++side)
     {
-      const CellWay* const known = beside(axis, side);
-      ways[axis][side] = known ? *known : this->FromBeside(cell, way, axis, side);
+      ways[axis][side] = beside(axis, side);
     }
   }
   return Deepening::Within(way, ways, this->Light_.Centre);
@@ -78,11 +157,17 @@ Deepening LightWays::Around(std::int64_t cell, const CellWay& way, Beside&& besi
 
 Deepening LightWays::DeepeningOf(std::int64_t cell) const
 {
-  return this->Around(cell, this->From(cell), [](int, int) -> const CellWay* { return nullptr; });
+  const CellWay way = this->From(cell);
+  return this->Around(way,
+    [&](int axis, int side)
+    {
+      return this->FromBeside(
+        cell, way, axis, side, [](std::int64_t) { return std::optional<double>(); });
+    });
 }
 
-std::vector<Deepening> LightWays::DeepeningIn(
-  const Medium::Block& block, const std::vector<double>& extinction, bool roughly) const
+std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
+  const std::vector<double>& extinction, const std::optional<double>& allowed, bool roughly) const
 {
   std::vector<CellWay> ways;
   ways.reserve(block.Cells());
@@ -90,25 +175,40 @@ std::vector<Deepening> LightWays::DeepeningIn(
     [&](const std::array<int, 3>& place)
     {
       ways.push_back(this->From(this->Smoke_.Cell(block, place),
-        extinction.empty() ? std::nullopt : std::optional(extinction[ways.size()])));
+        extinction.empty() ? this->Extinction(block, place) : extinction[ways.size()]));
     });
+  // The layers of cells across the block's faces, once they are asked for.
+  std::array<std::optional<LayerWays>, 6> layers;
   std::vector<Deepening> result;
   result.reserve(ways.size());
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
+      const CellWay& way = ways[result.size()];
       if (roughly)
       {
-        result.push_back(Deepening::Even(ways[result.size()], this->Light_.Centre));
+        result.push_back(Deepening::Even(way, this->Light_.Centre));
         return;
       }
-      result.push_back(this->Around(this->Smoke_.Cell(block, place), ways[result.size()],
-        [&](int axis, int side) -> const CellWay*
+      const std::int64_t cell = this->Smoke_.Cell(block, place);
+      result.push_back(this->Around(way,
+        [&](int axis, int side)
         {
           std::array<int, 3> other = place;
           other[axis] += side == 0 ? -1 : 1;
-          return other[axis] < 0 || other[axis] >= block.Size[axis] ? nullptr
-                                                                    : &ways[block.Number(other)];
+          // Where a finer grid lies over that cell, or walls part it, another is beside this one.
+          if (other[axis] >= 0 && other[axis] < block.Size[axis] &&
+              this->Smoke_.Neighbour(block, place, axis, side) == this->Smoke_.Cell(block, other))
+          {
+            return ways[block.Number(other)];
+          }
+          std::optional<LayerWays>& layer = layers[2 * axis + side];
+          if (!layer)
+          {
+            layer.emplace(this->Smoke_, *this, block, axis, side, allowed);
+          }
+          return this->FromBeside(cell, way, axis, side,
+            [&](std::int64_t beside) { return layer->Extinction(place, beside); });
         }));
     });
   return result;

@@ -394,6 +394,17 @@ std::vector<Medium::Block> Medium::Blocks(int edge) const
   return blocks;
 }
 
+bool Medium::Holds(const Block& block) const
+{
+  bool holds = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    holds = holds && block.First[axis] >= 0 &&
+            block.First[axis] + block.Size[axis] <= this->Grids_[block.Grid].Size[axis];
+  }
+  return holds;
+}
+
 std::int64_t Medium::LeaptCells() const
 {
   return std::accumulate(this->Grids_.begin(), this->Grids_.end(), std::int64_t{0},

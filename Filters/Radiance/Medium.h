@@ -115,6 +115,8 @@ public:
   };
   /// Blocks of at most `edge` cells along each axis that hold every cell once.
   std::vector<Block> Blocks(int edge) const;
+  /// Whether a block lies in its grid.
+  bool Holds(const Block& block) const;
   /// A cell of a block, counted from the block's first.
   std::int64_t Cell(const Block& block, const std::array<int, 3>& place) const
   {

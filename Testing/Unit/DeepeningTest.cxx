@@ -2,7 +2,9 @@
 #include "LightWays.h"
 #include "SceneLibrary.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +89,70 @@ TEST(Deepening, EvenSmoke)
   EXPECT_NEAR(
     around.At(from, step), Extinction * (glm::length(from + step) - glm::length(from)), 1e-9);
   EXPECT_NEAR(around.Moved(from, step).At(from + step, -step), -around.At(from, step), 1e-9);
+}
+
+/// The same of every cell of a mesh, from the cells of blocks of it.
+/// @param visit(cell, alone, in a block)
+template <class Visit>
+void ForEachInBlocks(
+  const Medium& smoke, const LightGroup& light, const std::optional<double>& allowed, Visit&& visit)
+{
+  const LightWays alone(smoke, 1.0, light);
+  for (const Medium::Block& block : smoke.Blocks(8))
+  {
+    const LightWays ways(smoke, 1.0, light, block);
+    const std::vector<Deepening> around = ways.DeepeningIn(block, {}, allowed, false);
+    std::size_t number = 0;
+    block.ForEachCell(
+      [&](const std::array<int, 3>& place)
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        visit(cell, alone.DeepeningOf(cell), around[number++]);
+      });
+  }
+}
+
+// Ways that the cells of a block share are the same as those that each cell walks for itself, also
+// those from beyond the block's faces and beyond the mesh, where a finer mesh begins.
+TEST(Deepening, OfCellsThatShareTheirWays)
+{
+  SmokeGrid coarse = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {20, 10, 10}, Extinction);
+  SmokeGrid fine = scenes::UniformSmoke(Vec3(0.55, 0.2, 0.3), {1.2, 1, 1.25}, {13, 16, 19}, 2.0);
+  for (std::size_t cell = 0; cell < coarse.Extinction.size(); ++cell)
+  {
+    coarse.Extinction[cell] *= 0.1F + static_cast<float>(cell * 37 % 101) / 50.0F;
+  }
+  const Medium smoke({coarse, fine});
+  ForEachInBlocks(smoke, LightAt({0.05, 0.47, 1.6}), std::nullopt,
+    [](std::int64_t cell, const Deepening& alone, const Deepening& shared)
+    {
+      EXPECT_EQ(shared.Slope, alone.Slope) << "cell " << cell;
+      EXPECT_EQ(shared.Bend, alone.Bend) << "cell " << cell;
+      EXPECT_EQ(shared.Entry, alone.Entry) << "cell " << cell;
+      EXPECT_EQ(shared.Mean, alone.Mean) << "cell " << cell;
+    });
+}
+
+// Where smoke changes slowly, a few ways from the layer across a face of a block tell the others,
+// to the error that is allowed: a slope is off by no more than that over the length of a cell.
+TEST(Deepening, ToldFromBeyondABlock)
+{
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
+  {
+    grid.Extinction[cell] *= 1.0F + 0.3F * std::sin(0.05F * static_cast<float>(cell % 40));
+  }
+  const Medium smoke({grid});
+  constexpr double allowed = 0.004;
+  double largest = 0.0;
+  ForEachInBlocks(smoke, LightAt({6.0, 4.0, 3.0}), allowed,
+    [&](std::int64_t, const Deepening& alone, const Deepening& shared)
+    {
+      const Vec3 off = glm::abs(shared.Slope - alone.Slope);
+      largest = std::max({largest, off.x, off.y, off.z});
+    });
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LE(largest * Edge, allowed);
 }
 
 // From the light's own place ways lead to all sides alike.

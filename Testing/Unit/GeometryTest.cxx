@@ -1,10 +1,13 @@
 // Rays against surfaces and plates: distance, side, and who wins where shapes touch.
 #include "Geometry.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -168,6 +171,40 @@ TEST(Geometry, OcclusionAndSight)
 }
 
 // A line through a stack finds every shape once, in order, with both its sides.
+// Lines asked for together are seen as each by itself, whether or not they fill up packets; a line
+// without length, and one from beyond what single precision reaches, among them.
+TEST(Geometry, ManyLinesAtOnce)
+{
+  SurfaceMesh shapes;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+  for (int i = 0; i < 20; ++i)
+  {
+    const Vec3 corner = point();
+    AddQuad(shapes, corner, corner + Vec3(0.7, 0.1, 0), corner + Vec3(0.6, 0.8, 0.2),
+      corner + Vec3(0, 0.7, 0.1));
+  }
+  const Geometry geometry(shapes, Square(0.5, 0.4));
+  std::vector<LineOfSight> lines = {
+    {Vec3(0.3), Vec3(0.3)}, {Vec3(1e30, 0, 0), Vec3(0.0)}, {Vec3(0, 0, 1), Vec3(0, 0, 0.5)}};
+  for (int i = 0; i < 2000; ++i)
+  {
+    lines.push_back({point(), point()});
+  }
+  const std::vector<bool> seen = geometry.Visible(lines);
+  ASSERT_EQ(seen.size(), lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    EXPECT_EQ(seen[i], geometry.Visible(lines[i].From, lines[i].To)) << "line " << i;
+  }
+  const auto clear = std::count(seen.begin(), seen.end(), true);
+  EXPECT_GT(clear, 500);
+  EXPECT_LT(clear, 1800);
+  EXPECT_TRUE(geometry.Visible(std::span<const LineOfSight>()).empty());
+  EXPECT_EQ(Geometry().Visible(std::span(lines).first(3)), std::vector<bool>(3, true));
+}
+
 TEST(Geometry, CrossingsOfALine)
 {
   SurfaceMesh stack = Square(0.0);
