@@ -71,6 +71,7 @@ constexpr std::array<glm::dvec2, 5> CornerPlaces = {glm::dvec2(0.5, 0.5), glm::d
   glm::dvec2(1.0 - Inset, 1.0 - Inset)};
 
 /// These and some of the lattice.
+static_assert(ShadowPlaces % FewShadowPlaces == 0);
 constexpr auto FewPlaces = []
 {
   std::array<glm::dvec2, CornerPlaces.size() + ShadowPlaces / FewShadowPlaces> places{};

@@ -89,6 +89,9 @@ RTCRayHit MakeQuery(const RTCRay& ray)
 
 struct TriangleTree::Packet
 {
+  /// Nothing lies on a ray that ends before it begins.
+  Packet() { std::fill(std::begin(this->Rays.tfar), std::end(this->Rays.tfar), -1.0F); }
+
   RTCRay16 Rays{};
   /// Those that count: -1, others: 0.
   alignas(64) std::array<int, PacketSize> Valid{};

@@ -196,19 +196,23 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
         {
           std::array<int, 3> other = place;
           other[axis] += side == 0 ? -1 : 1;
-          // Where a finer grid lies over that cell, or walls part it, another is beside this one.
-          if (other[axis] >= 0 && other[axis] < block.Size[axis] &&
-              this->Smoke_.Neighbour(block, place, axis, side) == this->Smoke_.Cell(block, other))
+          const bool outside = other[axis] < 0 || other[axis] >= block.Size[axis];
+          // Where a finer grid lies over that cell, or walls part it, another is beside this one,
+          // unless that is covered itself.
+          if (!outside && (this->Smoke_.Neighbour(block, place, axis, side) ==
+                              this->Smoke_.Cell(block, other) ||
+                            this->Smoke_.Covered(cell)))
           {
             return ways[block.Number(other)];
           }
           std::optional<LayerWays>& layer = layers[2 * axis + side];
-          if (!layer)
+          if (outside && !layer)
           {
             layer.emplace(this->Smoke_, *this, block, axis, side, allowed);
           }
           return this->FromBeside(cell, way, axis, side,
-            [&](std::int64_t beside) { return layer->Extinction(place, beside); });
+            [&](std::int64_t beside)
+            { return outside ? layer->Extinction(place, beside) : std::optional<double>(); });
         }));
     });
   return result;

@@ -18,7 +18,8 @@ constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 3> DiagonalBegin = {0.5, 0.25, 0.75};
 constexpr std::array<int, 3> DiagonalStep = {1, 1, -1};
 
-int LongestEdge(const Medium::Block& block)
+/// Along its longest edge.
+int Layers(const Medium::Block& block)
 {
   return std::max({block.Size[0], block.Size[1], block.Size[2]});
 }
@@ -85,12 +86,13 @@ double ToldWays::Depth(double extinction, double distance) const
 
 bool ToldWays::WalkCorners()
 {
-  bool serves = LongestEdge(this->Block_) >= SmallestBlock;
+  bool serves = Layers(this->Block_) >= SmallestBlock;
   for (int index = 0; index < 8 && serves; ++index)
   {
-    this->Own_[index] = this->Smoke_.Extinction(this->Smoke_.Cell(this->Block_, Corner(index)));
+    this->Own_[index] =
+      this->Smoke_.Extinction(this->Smoke_.Cell(this->Block_, this->Corner(index)));
     serves = this->Own_[index] > 0.0 || this->Smoke_.MaximumExtinction() == 0.0F;
-    this->Corners_[index] = serves ? this->Walk(Corner(index)) : 0.0;
+    this->Corners_[index] = serves ? this->Walk(this->Corner(index)) : 0.0;
   }
   return serves;
 }
@@ -98,7 +100,7 @@ bool ToldWays::WalkCorners()
 bool ToldWays::CornersTell(double allowed)
 {
   bool told = true;
-  for (int i = 0; i < LongestEdge(this->Block_) && told; ++i)
+  for (int i = 0; i < Layers(this->Block_) && told; ++i)
   {
     const std::array<int, 3> place = PlaceOnDiagonal(this->Block_, i);
     const double interpolated = Trilinear(this->Corners_, this->Block_, place);
@@ -112,7 +114,7 @@ bool ToldWays::CornersTell(double allowed)
 bool ToldWays::TellRest(double odd)
 {
   const double edge =
-    smokevis::LargestEdge(this->Smoke_.CellSize(this->Smoke_.Cell(this->Block_, {0, 0, 0})));
+    LargestEdge(this->Smoke_.CellSize(this->Smoke_.Cell(this->Block_, {0, 0, 0})));
   bool any = false;
   this->Block_.ForEachCell(
     [&](const std::array<int, 3>& place)

@@ -91,24 +91,35 @@ TEST(Deepening, EvenSmoke)
   EXPECT_NEAR(around.Moved(from, step).At(from + step, -step), -around.At(from, step), 1e-9);
 }
 
-/// The same of every cell of a mesh, from the cells of blocks of it.
+/// The same of every cell that no finer mesh covers, from the cells of halves of blocks.
 /// @param visit(cell, alone, in a block)
 template <class Visit>
 void ForEachInBlocks(
   const Medium& smoke, const LightGroup& light, const std::optional<double>& allowed, Visit&& visit)
 {
   const LightWays alone(smoke, 1.0, light);
-  for (const Medium::Block& block : smoke.Blocks(8))
+  for (const Medium::Block& whole : smoke.Blocks(8))
   {
-    const LightWays ways(smoke, 1.0, light, block);
-    const std::vector<Deepening> around = ways.DeepeningIn(block, {}, allowed, false);
-    std::size_t number = 0;
-    block.ForEachCell(
-      [&](const std::array<int, 3>& place)
-      {
-        const std::int64_t cell = smoke.Cell(block, place);
-        visit(cell, alone.DeepeningOf(cell), around[number++]);
-      });
+    const LightWays ways(smoke, 1.0, light, whole);
+    const int half = (whole.Size[0] + 1) / 2;
+    for (const int first : {0, half})
+    {
+      Medium::Block block = whole;
+      block.First[0] += first;
+      block.Size[0] = std::min(half, whole.Size[0] - first);
+      const std::vector<Deepening> around = ways.DeepeningIn(block, {}, allowed, false);
+      std::size_t number = 0;
+      block.ForEachCell(
+        [&](const std::array<int, 3>& place)
+        {
+          const std::int64_t cell = smoke.Cell(block, place);
+          const Deepening& shared = around[number++];
+          if (!smoke.Covered(cell))
+          {
+            visit(cell, alone.DeepeningOf(cell), shared);
+          }
+        });
+    }
   }
 }
 

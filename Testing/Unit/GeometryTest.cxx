@@ -170,7 +170,6 @@ TEST(Geometry, OcclusionAndSight)
   EXPECT_TRUE(shapes.Visible({0, 0, 0.5}, {0, 0, 0.5}));
 }
 
-// A line through a stack finds every shape once, in order, with both its sides.
 // Lines asked for together are seen as each by itself, whether or not they fill up packets; a line
 // without length, and one from beyond what single precision reaches, among them.
 TEST(Geometry, ManyLinesAtOnce)
@@ -205,6 +204,7 @@ TEST(Geometry, ManyLinesAtOnce)
   EXPECT_EQ(Geometry().Visible(std::span(lines).first(3)), std::vector<bool>(3, true));
 }
 
+// A line through a stack finds every shape once, in order, with both its sides.
 TEST(Geometry, CrossingsOfALine)
 {
   SurfaceMesh stack = Square(0.0);
