@@ -162,13 +162,14 @@ std::vector<double> Amiss(std::uint64_t first, std::uint64_t count)
 
 /// Cells that are coarse against a lamp, the smoke or the edge of a shadow may each leave a percent
 /// out; where a screen cuts a plate at a small angle it is several.
-void ExpectAllTakenUp(const std::vector<double>& amiss)
+/// @param most share that may be amiss in any of them
+void ExpectAllTakenUp(const std::vector<double>& amiss, double most)
 {
   report::Head("Power of lamps that is not taken up, or too much, in " +
                std::to_string(amiss.size()) + " closed black rooms");
   report::Absolute("median", 0.0, amiss[amiss.size() / 2], 0.001);
   report::Absolute("nine of ten below", 0.0, amiss[amiss.size() * 9 / 10], 0.0075);
-  report::Absolute("largest", 0.0, amiss.back(), 0.1);
+  report::Absolute("largest", 0.0, amiss.back(), most);
 }
 
 // Even smoke and nothing that throws shadows: in any room, for a lamp whose plane cuts cells or
@@ -227,12 +228,12 @@ TEST(BlackRooms, PlateRightInsideAFace)
 
 TEST(BlackRooms, Forty)
 {
-  ExpectAllTakenUp(Amiss(1, 40));
+  ExpectAllTakenUp(Amiss(1, 40), 0.05);
 }
 
 TEST(BlackRooms, ThousandLong)
 {
-  ExpectAllTakenUp(Amiss(1001, 1000));
+  ExpectAllTakenUp(Amiss(1001, 1000), 0.1);
 }
 
 } // namespace
