@@ -16,12 +16,14 @@ CellParts::CellParts(
   }
   this->First_.assign(cells, -1);
   this->Root_.assign(cells, -1);
+  this->Cut_.assign(cells, false);
   for (CellCut& cut : cuts)
   {
     const auto firstPart = static_cast<std::int32_t>(this->Parts_.size());
     const auto firstNode = static_cast<std::int32_t>(this->Nodes_.size());
     this->First_[cut.Cell] = firstPart;
     this->Root_[cut.Cell] = firstNode;
+    this->Cut_[cut.Cell] = true;
     for (CellCut::Node node : cut.Nodes)
     {
       node.Front += node.Front < 0 ? -firstPart : firstNode;
@@ -46,11 +48,11 @@ CellParts::CellParts(
 //--------------------------------------------------------------------------------------------------
 std::int64_t CellParts::Locate(std::int64_t cell, const Vec3& point) const
 {
-  std::int32_t node = this->Empty() ? -1 : this->Root_[cell];
-  if (node < 0)
+  if (!this->IsCut(cell))
   {
     return cell;
   }
+  std::int32_t node = this->Root_[cell];
   while (node >= 0)
   {
     const CellCut::Node& cut = this->Nodes_[node];

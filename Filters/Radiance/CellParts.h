@@ -104,18 +104,19 @@ public:
   void Divide(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
     double end, Visit&& visit) const
   {
-    const std::int32_t root = this->Empty() ? -1 : this->Root_[cell];
-    if (root < 0)
+    if (!this->IsCut(cell))
     {
       visit(cell, begin, end);
       return;
     }
     Piece open{-1, begin};
-    this->Descend(root, origin - this->Base_, direction, begin, end, open, visit);
+    this->Descend(this->Root_[cell], origin - this->Base_, direction, begin, end, open, visit);
     visit(open.Number, open.Begin, end);
   }
 
 private:
+  bool IsCut(std::int64_t cell) const { return !this->Empty() && this->Cut_[cell]; }
+
   /// What was last entered on a ray's way.
   struct Piece
   {
@@ -136,6 +137,8 @@ private:
   std::vector<CellPart> Parts_;
   /// Of each cell: its first part's place and its root; -1: it is not cut.
   std::vector<std::int32_t> First_, Root_;
+  /// Which cells are cut, a bit each: rays ask this of every cell they meet.
+  std::vector<bool> Cut_;
   /// Places of the parts with numbers of their own.
   std::vector<std::int32_t> Later_;
 };
