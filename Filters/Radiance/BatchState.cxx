@@ -1,14 +1,20 @@
 #include "BatchState.h"
 
+#include "LargePages.h"
+
 #include <algorithm>
 
 namespace smokevis
 {
 
 BatchState::BatchState(std::size_t cells, std::size_t sides)
-    : Fluence(cells, 0.0F), Illuminance(sides, 0.0F), FluenceSum(cells, 0.0F),
-      IlluminanceSum(sides, 0.0F)
+    : Illuminance(sides, 0.0F), IlluminanceSum(sides, 0.0F)
 {
+  for (std::vector<float>* values : {&this->Fluence, &this->FluenceSum})
+  {
+    ReserveInLargePages(cells, *values);
+    values->assign(cells, 0.0F);
+  }
 }
 
 void BatchState::Restart()

@@ -21,9 +21,14 @@ constexpr double ProgressRate = 0.02;
 
 BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_t key, Team& team,
   tbb::task_arena& arena, Progress& progress, const ProgressSpan& span)
-    : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span),
-      States_(Batches, BatchState(field.Cells, 2 * field.Patches))
+    : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span)
 {
+  // A copy would lie in small pages.
+  this->States_.reserve(Batches);
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    this->States_.emplace_back(field.Cells, 2 * field.Patches);
+  }
   if (sweep.Blocks())
   {
     this->Completion_.emplace(*sweep.Blocks(), this->States_);

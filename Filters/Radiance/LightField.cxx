@@ -2,6 +2,7 @@
 
 #include "DirectSolve.h"
 #include "Errors.h"
+#include "LargePages.h"
 #include "MultipleSolve.h"
 #include "Team.h"
 
@@ -80,7 +81,9 @@ LightField Solver::Run()
   this->Field_.Cells = this->Scene_.Smoke().Cells();
   this->Field_.Patches = this->Scene_.Patches();
   const std::size_t bands = this->Field_.Bands;
+  ReserveInLargePages(bands * this->Field_.Cells, this->Field_.DirectFluence);
   this->Field_.DirectFluence.assign(bands * this->Field_.Cells, 0.0F);
+  ReserveInLargePages(bands * this->Field_.Cells, this->Field_.MultipleFluence);
   this->Field_.MultipleFluence.assign(bands * this->Field_.Cells, Lanes());
   this->Field_.DirectIlluminance.assign(bands * this->Field_.Patches * 2, 0.0F);
   this->Field_.MultipleIlluminance.assign(bands * this->Field_.Patches * 2, Lanes());

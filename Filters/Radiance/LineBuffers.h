@@ -14,18 +14,29 @@ namespace smokevis
 /// One a thread; emptied for each line.
 struct LineBuffers
 {
+  /// Of the line, in one cell or a part of it.
+  struct Piece
+  {
+    std::int64_t Cell;
+    /// [m]
+    float Length;
+    /// Mean luminance of what it sends on and emits [cd/m2].
+    float Source;
+    /// exp(-tau) of its optical depth tau, and (1 - exp(-tau)) / tau.
+    float Transmittance, Escape;
+    /// Luminance that it adds, (1 - exp(-tau)) times the source, and what the source's change from
+    /// its beginning to its end adds along the line and takes away against it [cd/m2].
+    float Added, Tilt;
+    /// By how much the radiances of both directions together, where they come in, exceed the
+    /// source.
+    float Excess;
+  };
+
   std::vector<Crossing> Crossings;
   std::vector<Segment> Segments;
-  /// Of each piece of the line: cell, length, tau = its optical depth, mean source luminance and
-  /// its change from the piece's beginning to its end, exp(-tau), (1 - exp(-tau)) / tau, and the
-  /// luminance that it adds: (1 - exp(-tau)) times the source, and what the change adds along the
-  /// line and takes away against it.
-  std::vector<std::int64_t> Cell;
-  std::vector<float> Length, Depth, Source, Change, Transmittance, Escape, Added, Tilt;
+  std::vector<Piece> Pieces;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
-  /// By how much the radiances of both directions together, where they come in, exceed the source.
-  std::vector<float> Excess;
   /// Radiance that comes to each crossing, along the line and against it; of watched surfaces only.
   std::array<std::vector<float>, 2> Arriving;
 };

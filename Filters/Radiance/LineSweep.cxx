@@ -1,5 +1,7 @@
 #include "LineSweep.h"
 
+#include "DirectField.h"
+#include "LargePages.h"
 #include "LineBuffers.h"
 #include "LineChoice.h"
 #include "Sampler.h"
@@ -126,6 +128,7 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   const float scale = counted ? 1.0F / static_cast<float>(state.Counted) : 1.0F;
   const float sweeps = counted ? static_cast<float>(state.Counted) : state.Share;
   const std::vector<float>& fluence = counted ? state.FluenceSum : state.Fluence;
+  ReserveInLargePages(fluence.size(), tallies.Cells);
   tallies.Cells.resize(fluence.size());
   for (std::size_t cell = 0; cell < fluence.size(); ++cell)
   {
@@ -134,7 +137,9 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
       this->Scatter_ * (this->DirectFluence_[cell] + state.Fluence[cell]) + emission;
     const bool known = sweeps * this->CellCrossings_[cell] >= CellSteps::FewestMeetings;
     // In a thick cell there is little but what it sends on.
-    tallies.Cells[cell] = {source, this->Extinction_[cell],
+    tallies.Cells[cell] = {source,
+      this->Direct_.Varies(static_cast<std::int64_t>(cell), this->Band_) ? -this->Extinction_[cell]
+                                                                         : this->Extinction_[cell],
       this->Thick_.IsThick(cell) ? 2.0F * source
       : known ? BothWays * this->Steps_.Expected(state.Share * this->CellCrossings_[cell],
                              state.Fluence[cell], scale * fluence[cell])

@@ -11,6 +11,7 @@
 #include "SourceShape.h"
 #include "ThickCells.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -29,14 +30,19 @@ struct LineTallies
   /// All that a line needs of a cell: it lies together, since lines meet cells far apart.
   struct alignas(32) Cell
   {
-    /// Luminance of what the cell sends on and emits [cd/m2], and its extinction coefficient [1/m].
-    float Source, Extinction;
+    /// Luminance of what the cell sends on and emits [cd/m2].
+    float Source;
+    /// Extinction coefficient [1/m], its sign set where the direct fluence varies inside the cell.
+    float SignedExtinction;
     /// Radiance of both directions that is expected along a line, and the tally of what differs.
     float Expected, Fluence;
     /// Slopes of the luminance along the axes [cd/m3], and what it differs by at the smoke's lower
     /// corner, continued [cd/m2].
     SourceShape::Slope Slope;
     float Offset;
+
+    float Extinction() const { return std::abs(this->SignedExtinction); }
+    bool DirectVaries() const { return std::signbit(this->SignedExtinction); }
   };
   std::vector<Cell> Cells;
   std::vector<float> Illuminance;

@@ -45,13 +45,14 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   const Medium& smoke = this->Scene_.Smoke();
   this->Scene_.Shapes().Cross(origin, direction, 0.0, length, buffers.Crossings);
   const std::size_t crossings = buffers.Crossings.size();
-  buffers.Cell.clear();
-  buffers.Length.clear();
-  buffers.Depth.clear();
-  buffers.Source.clear();
-  buffers.Change.clear();
+  buffers.Pieces.clear();
   buffers.First.assign(1, 0);
   smoke.Walk(origin, direction, 0.0, length, buffers.Segments);
+  // Cells lie far apart: they are fetched at once, not one after another as they are needed.
+  for (const Segment& segment : buffers.Segments)
+  {
+    __builtin_prefetch(&tallies.Cells[segment.Cell], 1);
+  }
   const bool flat = this->Shape_.Flat();
   const Vec3 start = origin - smoke.Lower();
   const std::array<float, 3> along = {static_cast<float>(direction.x),
@@ -64,9 +65,12 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     const auto addPart = [&](double part, float source)
     {
       const auto size = static_cast<float>(part);
-      buffers.Cell.push_back(cell);
-      buffers.Length.push_back(size);
-      buffers.Depth.push_back(own.Extinction * size);
+      const float depth = own.Extinction() * size;
+      const float transmittance = std::exp(-depth);
+      const float escape =
+        depth < 0.01F ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
+                      : (1.0F - transmittance) / depth;
+      float tilt = 0.0F;
       if (!flat)
       {
         const Vec3 middle = start + (at + 0.5 * part) * direction;
@@ -74,11 +78,13 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
                   own.Slope[1] * static_cast<float>(middle.y) +
                   own.Slope[2] * static_cast<float>(middle.z);
         at += part;
-        buffers.Change.push_back(slope * size);
+        tilt = slope * size * SourceShape::Tilt(depth, escape);
       }
-      buffers.Source.push_back(source);
+      // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
+      buffers.Pieces.push_back(
+        {cell, size, source, transmittance, escape, depth * escape * source, tilt, 0.0F});
     };
-    if (!this->Direct_.Varies(cell, this->Band_))
+    if (!own.DirectVaries())
     {
       addPart(end - begin, own.Source);
       return;
@@ -90,30 +96,8 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   };
   ForEachPiece(
     buffers.Crossings, buffers.Segments,
-    [&](std::size_t) { buffers.First.push_back(buffers.Cell.size()); }, add);
-  const std::size_t pieces = buffers.Cell.size();
-  buffers.First.push_back(pieces);
-
-  buffers.Transmittance.resize(pieces);
-  buffers.Escape.resize(pieces);
-  buffers.Added.resize(pieces);
-  buffers.Tilt.assign(pieces, 0.0F);
-  buffers.Excess.resize(pieces);
-  for (std::size_t i = 0; i < pieces; ++i)
-  {
-    const float depth = buffers.Depth[i];
-    const float transmittance = std::exp(-depth);
-    buffers.Transmittance[i] = transmittance;
-    buffers.Escape[i] = depth < 0.01F
-                          ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
-                          : (1.0F - transmittance) / depth;
-    // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
-    buffers.Added[i] = depth * buffers.Escape[i] * buffers.Source[i];
-    if (!flat)
-    {
-      buffers.Tilt[i] = buffers.Change[i] * SourceShape::Tilt(depth, buffers.Escape[i]);
-    }
-  }
+    [&](std::size_t) { buffers.First.push_back(buffers.Pieces.size()); }, add);
+  buffers.First.push_back(buffers.Pieces.size());
 
   for (std::vector<float>& arriving : buffers.Arriving)
   {
@@ -132,8 +116,9 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   {
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
-      buffers.Excess[i] = radiance - buffers.Source[i];
-      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] + buffers.Tilt[i]);
+      LineBuffers::Piece& piece = buffers.Pieces[i];
+      piece.Excess = radiance - piece.Source;
+      radiance = radiance * piece.Transmittance + (piece.Added + piece.Tilt);
     }
     if (part < crossings)
     {
@@ -151,8 +136,9 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   {
     for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
     {
-      buffers.Excess[i] += radiance - buffers.Source[i];
-      radiance = radiance * buffers.Transmittance[i] + (buffers.Added[i] - buffers.Tilt[i]);
+      LineBuffers::Piece& piece = buffers.Pieces[i];
+      piece.Excess += radiance - piece.Source;
+      radiance = radiance * piece.Transmittance + (piece.Added - piece.Tilt);
     }
     if (part > 0)
     {
@@ -165,12 +151,11 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     }
   }
   tallies.Escaped += weight * radiance;
-  for (std::size_t i = 0; i < pieces; ++i)
+  for (const LineBuffers::Piece& piece : buffers.Pieces)
   {
-    LineTallies::Cell& cell = tallies.Cells[buffers.Cell[i]];
+    LineTallies::Cell& cell = tallies.Cells[piece.Cell];
     cell.Fluence +=
-      weight * buffers.Length[i] *
-      (buffers.Excess[i] * buffers.Escape[i] + (2.0F * buffers.Source[i] - cell.Expected));
+      weight * piece.Length * (piece.Excess * piece.Escape + (2.0F * piece.Source - cell.Expected));
   }
   if (!this->Watched_.empty())
   {
@@ -205,7 +190,7 @@ void LineSweep::TallyWatched(
     float through = 1.0F;
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
-      through *= buffers.Transmittance[i];
+      through *= buffers.Pieces[i].Transmittance;
     }
     float last = 0.0F;
     if (part < crossings)

@@ -1,6 +1,7 @@
 #include "Medium.h"
 
 #include "Errors.h"
+#include "LargePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,7 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
     cells += grid.Extinction.size();
     emits = emits || !grid.EmittedLuminance.empty();
   }
-  this->Extinction_.reserve(cells);
+  ReserveInLargePages(cells, this->Extinction_);
   for (SmokeGrid& source : grids)
   {
     Grid grid;
