@@ -36,52 +36,6 @@ constexpr double EvenDepth = 0.04;
 constexpr double StencilDepth = 1.0;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
-/// Below this radius over distance a light is seen whole or not at all.
-constexpr double SmallRatio = 0.05;
-/// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so
-/// that no two lie level with each other along either edge.
-constexpr int ShadowPlaces = 55;
-constexpr int ShadowStep = 34;
-/// Each such place is looked at to tell whether anything is hidden.
-constexpr int FewShadowPlaces = 5;
-
-/// Where in its part of each edge a place lies: off the middle, as edges of shadows often run
-/// through fractions of a plate, where rounding would decide.
-constexpr glm::dvec2 ShadowShift(0.4637, 0.5417);
-
-/// The places of the lattice, 0 to 1 along both edges.
-constexpr std::array<glm::dvec2, ShadowPlaces> MakeLattice()
-{
-  std::array<glm::dvec2, ShadowPlaces> places{};
-  for (int number = 0; number < ShadowPlaces; ++number)
-  {
-    places[number] = (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
-                     static_cast<double>(ShadowPlaces);
-  }
-  return places;
-}
-
-constexpr std::array<glm::dvec2, ShadowPlaces> ShadowLattice = MakeLattice();
-
-/// The centre and the corners, which lie in from the edges: those may touch what the light hangs
-/// on.
-constexpr double Inset = 0.04;
-constexpr std::array<glm::dvec2, 5> CornerPlaces = {glm::dvec2(0.5, 0.5), glm::dvec2(Inset, Inset),
-  glm::dvec2(Inset, 1.0 - Inset), glm::dvec2(1.0 - Inset, Inset),
-  glm::dvec2(1.0 - Inset, 1.0 - Inset)};
-
-/// These and some of the lattice.
-static_assert(ShadowPlaces % FewShadowPlaces == 0);
-constexpr auto FewPlaces = []
-{
-  std::array<glm::dvec2, CornerPlaces.size() + ShadowPlaces / FewShadowPlaces> places{};
-  std::copy(CornerPlaces.begin(), CornerPlaces.end(), places.begin());
-  for (std::size_t i = CornerPlaces.size(); i < places.size(); ++i)
-  {
-    places[i] = ShadowLattice[(i - CornerPlaces.size()) * FewShadowPlaces];
-  }
-  return places;
-}();
 
 int SplitsOf(const EmissionLaw& law)
 {
@@ -109,71 +63,26 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
 
 } // namespace
 
+DirectLight::DirectLight(const Scene& scene, const NearLights* near)
+    : Scene_(scene), Sight_(scene.Shapes()), Near_(near)
+{
+}
+
 double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) const
 {
   if (receiver.Clear)
   {
     return 1.0;
   }
-  switch (this->SightOf(group, receiver.Point))
+  switch (this->Sight_.Of(group, receiver.Point))
   {
   case Sight::None:
     return 0.0;
   case Sight::Whole:
     return 1.0;
   default:
-    return this->VisibleShare(group, receiver.Point);
+    return this->Sight_.Share(group, receiver.Point);
   }
-}
-
-bool DirectLight::Small(const LightGroup& group, const Vec3& point)
-{
-  return group.Radius < SmallRatio * glm::length(group.Centre - point);
-}
-
-DirectLight::Sight DirectLight::SightOf(const LightGroup& group, const Vec3& point) const
-{
-  if (Small(group, point))
-  {
-    return this->Scene_.Shapes().Visible(point, group.Centre) ? Sight::Whole : Sight::None;
-  }
-  return this->SightOfAll(group, point);
-}
-
-std::vector<bool> DirectLight::Seen(
-  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
-{
-  std::vector<LineOfSight> lines;
-  lines.reserve(places.size());
-  for (const glm::dvec2& place : places)
-  {
-    lines.push_back({point, group.At(place.x, place.y)});
-  }
-  return this->Scene_.Shapes().Visible(lines);
-}
-
-DirectLight::Sight DirectLight::SightOf(
-  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
-{
-  const std::vector<bool> seen = this->Seen(group, point, places);
-  const auto count = std::count(seen.begin(), seen.end(), true);
-  return count == 0 ? Sight::None : (count == std::ssize(seen) ? Sight::Whole : Sight::Parted);
-}
-
-DirectLight::Sight DirectLight::SightOfCorners(const LightGroup& group, const Vec3& point) const
-{
-  return this->SightOf(group, point, CornerPlaces);
-}
-
-DirectLight::Sight DirectLight::SightOfAll(const LightGroup& group, const Vec3& point) const
-{
-  return this->SightOf(group, point, FewPlaces);
-}
-
-double DirectLight::VisibleShare(const LightGroup& group, const Vec3& point) const
-{
-  const std::vector<bool> seen = this->Seen(group, point, ShadowLattice);
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / ShadowPlaces;
 }
 
 double DirectLight::Ways::At(const Vec3& place) const
@@ -315,10 +224,11 @@ void DirectLight::AddLeaf(
   };
   if (parted)
   {
-    const std::vector<bool> seen = this->Seen(leaf, point, ShadowLattice);
+    const std::span<const glm::dvec2> places = LightSight::Lattice();
+    const std::vector<bool> seen = this->Sight_.Seen(leaf, point, places);
     for (std::size_t i = 0; i < seen.size(); ++i)
     {
-      add(ShadowLattice[i].x, ShadowLattice[i].y, 1.0, seen[i]);
+      add(places[i].x, places[i].y, 1.0, seen[i]);
     }
   }
   else if (few || thin)

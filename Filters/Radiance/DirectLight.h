@@ -1,6 +1,7 @@
 // Light that reaches points, smoke cells and surface patches straight from the emitters.
 #pragma once
 
+#include "LightSight.h"
 #include "LightWays.h"
 #include "Medium.h"
 #include "Triangle.h"
@@ -24,10 +25,7 @@ class DirectLight
 {
 public:
   /// @param near what is known of lights near to cells already; must outlive this
-  explicit DirectLight(const Scene& scene, const NearLights* near = nullptr)
-      : Scene_(scene), Near_(near)
-  {
-  }
+  explicit DirectLight(const Scene& scene, const NearLights* near = nullptr);
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
@@ -120,29 +118,6 @@ private:
 
   /// Share of a group that is not hidden from a receiver; of a small one all or nothing.
   double Visible(const LightGroup& group, const Receiver& receiver) const;
-  /// How much of a light is seen from a point.
-  enum class Sight
-  {
-    None,
-    Parted,
-    Whole
-  };
-  /// Whether a group is seen whole or not at all, for it is far.
-  static bool Small(const LightGroup& group, const Vec3& point);
-  /// Which of the places of a group, 0 to 1 along both edges, are seen from a point.
-  std::vector<bool> Seen(
-    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
-  /// As places of a group tell.
-  Sight SightOf(
-    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
-  /// As its centre and its corners tell.
-  Sight SightOfCorners(const LightGroup& group, const Vec3& point) const;
-  /// As these and eleven places between them tell.
-  Sight SightOfAll(const LightGroup& group, const Vec3& point) const;
-  /// The same; of a small one all or nothing.
-  Sight SightOf(const LightGroup& group, const Vec3& point) const;
-  /// Share of a group that is not hidden from a point, place by place.
-  double VisibleShare(const LightGroup& group, const Vec3& point) const;
   /// The ways to a light, where they are few enough to stand for all.
   std::optional<Ways> WaysTo(const LightGroup& root, const Vec3& point) const;
   /// Optical depth at 633 nm between the receiver and a place on the light.
@@ -268,6 +243,7 @@ private:
     double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;
+  LightSight Sight_;
   const NearLights* Near_;
 };
 

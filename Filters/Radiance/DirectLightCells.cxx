@@ -26,7 +26,7 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   {
     return std::all_of(part->Fine.begin(), part->Fine.end(),
       [&](const PartSample& sample)
-      { return this->SightOfAll(root, part->Centre + Vec3(sample.Offset)) == Sight::Whole; });
+      { return this->Sight_.OfAll(root, part->Centre + Vec3(sample.Offset)) == Sight::Whole; });
   }
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
@@ -35,12 +35,12 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   {
     const Vec3 shift(
       corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
-    if (this->SightOfCorners(root, centre + shift * size) != Sight::Whole)
+    if (this->Sight_.OfCorners(root, centre + shift * size) != Sight::Whole)
     {
       return false;
     }
   }
-  return this->SightOfAll(root, centre) == Sight::Whole;
+  return this->Sight_.OfAll(root, centre) == Sight::Whole;
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const

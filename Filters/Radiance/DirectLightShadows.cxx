@@ -143,7 +143,7 @@ double DirectLight::ShownShare(std::size_t light, std::int64_t cell, std::uint64
   return all > 0.0 ? shown / all : 0.0;
 }
 
-std::vector<DirectLight::Sight> DirectLight::SightsFrom(
+std::vector<Sight> DirectLight::SightsFrom(
   const LightGroup& root, std::span<const std::int64_t> cells) const
 {
   const Medium& smoke = this->Scene_.Smoke();
@@ -159,14 +159,14 @@ std::vector<DirectLight::Sight> DirectLight::SightsFrom(
     {
       continue;
     }
-    if (Small(root, place))
+    if (LightSight::Small(root, place))
     {
       lines.push_back({place, root.Centre});
       ofLine.push_back(i);
     }
     else
     {
-      sights[i] = this->SightOfAll(root, place);
+      sights[i] = this->Sight_.OfAll(root, place);
     }
   }
   const std::vector<bool> seen = this->Scene_.Shapes().Visible(lines);

@@ -144,7 +144,7 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
   std::array<Sight, 3> sights;
   std::transform(corners.begin(), corners.end(), sights.begin(),
     [&](const Vec3& corner)
-    { return this->SightOfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
+    { return this->Sight_.OfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
   const auto all = [&sights](Sight sight)
   { return std::count(sights.begin(), sights.end(), sight) == 3; };
   if (all(Sight::None))

@@ -1,17 +1,14 @@
-// Opaque shapes, which may touch, and rays against them. The one place that knows Embree.
+// Opaque shapes, which may touch, and rays against them.
 #pragma once
 
 #include "SurfaceMesh.h"
+#include "TriangleTree.h"
 #include "Types.h"
 
 #include <limits>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
-
-struct RTCDeviceTy;
-struct RTCSceneTy;
 
 namespace smokevis
 {
@@ -20,71 +17,6 @@ namespace smokevis
 struct LineOfSight
 {
   Vec3 From, To;
-};
-
-/// Where a ray meets a shape.
-struct Hit
-{
-  /// Distance along the ray [m]; infinity: nothing was hit.
-  double Distance = std::numeric_limits<double>::infinity();
-  /// Place of the triangle among Geometry's, of the surfaces or of the emitters.
-  std::uint32_t Triangle = 0;
-  /// True where a plate of a sign or lamp was hit.
-  bool Emitter = false;
-  /// 0: seen from its front, 1: from its back.
-  int Side = 0;
-
-  bool Found() const { return this->Distance < std::numeric_limits<double>::infinity(); }
-};
-
-/// Triangles in double precision with their search structure, which works in single precision.
-class TriangleTree
-{
-public:
-  /// Rays that are traced at once.
-  struct Packet;
-  using Device = std::shared_ptr<RTCDeviceTy>;
-  static Device NewDevice();
-
-  /// None: nothing is hit.
-  TriangleTree() = default;
-  /// Exact duplicates and triangles without area are left out.
-  /// @param emitters whether these are plates of signs and lamps
-  /// @param centre of the scene: where single precision is finest
-  /// @param tolerance to which single precision knows distances in the scene, about [m]
-  TriangleTree(const Device& device, const SurfaceMesh& mesh, bool emitters, const Vec3& centre,
-    double tolerance);
-
-  bool Empty() const { return !this->Tree_; }
-  /// Triangles that are there to be hit, as indices into their mesh.
-  const std::vector<std::size_t>& Triangles() const { return this->Triangles_; }
-  /// The cell that a triangle belongs to.
-  std::uint32_t Cell(std::uint32_t triangle) const { return this->Cells_[triangle]; }
-  /// Unit normal of a triangle's front.
-  const Vec3& Normal(std::uint32_t triangle) const { return this->Normals_[triangle]; }
-
-  /// First triangle met between two distances [m].
-  Hit Intersect(const Vec3& origin, const Vec3& direction, double begin, double end) const;
-  /// All triangles that a line meets, nearest first; `hits` is overwritten.
-  void IntersectAll(const Vec3& origin, const Vec3& direction, double begin, double end,
-    std::vector<Hit>& hits) const;
-  /// Whether any triangle lies between two distances.
-  bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
-  /// Leaves those of the rays that no triangle lies on.
-  void LeaveClear(Packet& packet) const;
-
-private:
-  /// A hit at a distance that is known to single precision.
-  Hit MakeHit(const Vec3& origin, const Vec3& direction, double begin, double end,
-    std::uint32_t triangle, double rough) const;
-
-  std::shared_ptr<RTCSceneTy> Tree_;
-  std::vector<std::size_t> Triangles_;
-  std::vector<Vec3> Corners_, Normals_;
-  std::vector<std::uint32_t> Cells_;
-  Vec3 Centre_{0.0};
-  double Tolerance_ = 0.0;
-  bool Emitters_ = false;
 };
 
 /// Where a straight line passes through a shape, as seen from both sides.
@@ -160,8 +92,9 @@ private:
   {
     return hit.Emitter ? this->Emitters_ : this->Surfaces_;
   }
-  /// How far shapes lie from the ends of a line, at most, that only touch it there [m].
-  double Gap(double length) const;
+  /// The straight line between two points without the ends that shapes may touch: it ends before it
+  /// begins where the points lie so close together that nothing is left.
+  RayPiece Between(const Vec3& from, const Vec3& to) const;
   /// Whether a plate that was hit lies in the surface that was hit, to within the tolerance.
   bool Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const;
   /// Of the surfaces that a line meets within a gap, the first of the model of those that lie in
@@ -179,8 +112,6 @@ private:
 
   TriangleTree Surfaces_, Emitters_;
   std::vector<std::uint32_t> Bodies_;
-  /// Where single precision is finest.
-  Vec3 Centre_{0.0};
   double Tolerance_ = 0.0;
 };
 

@@ -1,0 +1,119 @@
+#include "LightSight.h"
+
+#include "Emitters.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Below this radius over distance a light is seen whole or not at all.
+constexpr double SmallRatio = 0.05;
+/// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so
+/// that no two lie level with each other along either edge.
+constexpr int ShadowPlaces = 55;
+constexpr int ShadowStep = 34;
+/// Each such place is looked at to tell whether anything is hidden.
+constexpr int FewShadowPlaces = 5;
+
+/// Where in its part of each edge a place lies: off the middle, as edges of shadows often run
+/// through fractions of a plate, where rounding would decide.
+constexpr glm::dvec2 ShadowShift(0.4637, 0.5417);
+
+/// The places of the lattice, 0 to 1 along both edges.
+constexpr std::array<glm::dvec2, ShadowPlaces> MakeLattice()
+{
+  std::array<glm::dvec2, ShadowPlaces> places{};
+  for (int number = 0; number < ShadowPlaces; ++number)
+  {
+    places[number] = (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
+                     static_cast<double>(ShadowPlaces);
+  }
+  return places;
+}
+
+constexpr std::array<glm::dvec2, ShadowPlaces> ShadowLattice = MakeLattice();
+
+/// The centre and the corners, which lie in from the edges: those may touch what the light hangs
+/// on.
+constexpr double Inset = 0.04;
+constexpr std::array<glm::dvec2, 5> CornerPlaces = {glm::dvec2(0.5, 0.5), glm::dvec2(Inset, Inset),
+  glm::dvec2(Inset, 1.0 - Inset), glm::dvec2(1.0 - Inset, Inset),
+  glm::dvec2(1.0 - Inset, 1.0 - Inset)};
+
+/// These and some of the lattice.
+static_assert(ShadowPlaces % FewShadowPlaces == 0);
+constexpr auto FewPlaces = []
+{
+  std::array<glm::dvec2, CornerPlaces.size() + ShadowPlaces / FewShadowPlaces> places{};
+  std::copy(CornerPlaces.begin(), CornerPlaces.end(), places.begin());
+  for (std::size_t i = CornerPlaces.size(); i < places.size(); ++i)
+  {
+    places[i] = ShadowLattice[(i - CornerPlaces.size()) * FewShadowPlaces];
+  }
+  return places;
+}();
+
+} // namespace
+
+bool LightSight::Small(const LightGroup& group, const Vec3& point)
+{
+  return group.Radius < SmallRatio * glm::length(group.Centre - point);
+}
+
+std::span<const glm::dvec2> LightSight::Lattice()
+{
+  return ShadowLattice;
+}
+
+std::vector<bool> LightSight::Seen(
+  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
+{
+  std::vector<LineOfSight> lines;
+  lines.reserve(places.size());
+  for (const glm::dvec2& place : places)
+  {
+    lines.push_back({point, group.At(place.x, place.y)});
+  }
+  return this->Shapes_.Visible(lines);
+}
+
+Sight LightSight::OfPlaces(
+  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
+{
+  const std::vector<bool> seen = this->Seen(group, point, places);
+  const auto count = std::count(seen.begin(), seen.end(), true);
+  return count == 0 ? Sight::None : (count == std::ssize(seen) ? Sight::Whole : Sight::Parted);
+}
+
+Sight LightSight::OfCorners(const LightGroup& group, const Vec3& point) const
+{
+  return this->OfPlaces(group, point, CornerPlaces);
+}
+
+Sight LightSight::OfAll(const LightGroup& group, const Vec3& point) const
+{
+  return this->OfPlaces(group, point, FewPlaces);
+}
+
+Sight LightSight::Of(const LightGroup& group, const Vec3& point) const
+{
+  if (Small(group, point))
+  {
+    return this->Shapes_.Visible(point, group.Centre) ? Sight::Whole : Sight::None;
+  }
+  return this->OfAll(group, point);
+}
+
+double LightSight::Share(const LightGroup& group, const Vec3& point) const
+{
+  const std::vector<bool> seen = this->Seen(group, point, ShadowLattice);
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / ShadowPlaces;
+}
+
+} // namespace smokevis

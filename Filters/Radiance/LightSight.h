@@ -1,0 +1,54 @@
+// How much of a light is seen from a point.
+#pragma once
+
+#include "Geometry.h"
+#include "Types.h"
+
+#include <span>
+#include <vector>
+
+namespace smokevis
+{
+
+struct LightGroup;
+
+enum class Sight
+{
+  None,
+  Parted,
+  Whole
+};
+
+/// Tells by shadow rays to places of a light's plate, given from 0 to 1 along both of its edges.
+class LightSight
+{
+public:
+  /// @param shapes what hides lights; must outlive this
+  explicit LightSight(const Geometry& shapes) : Shapes_(shapes) {}
+
+  /// Whether a group is seen whole or not at all, for it is far.
+  static bool Small(const LightGroup& group, const Vec3& point);
+  /// Places, as evenly spread as edges of shadows ask for, that tell the share of a group that is
+  /// seen.
+  static std::span<const glm::dvec2> Lattice();
+
+  /// Which of the places are seen.
+  std::vector<bool> Seen(
+    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
+  /// As its centre and its corners tell.
+  Sight OfCorners(const LightGroup& group, const Vec3& point) const;
+  /// As these and eleven places between them tell.
+  Sight OfAll(const LightGroup& group, const Vec3& point) const;
+  /// The same; of a small one all or nothing.
+  Sight Of(const LightGroup& group, const Vec3& point) const;
+  /// Share of a group that is not hidden, as the lattice tells.
+  double Share(const LightGroup& group, const Vec3& point) const;
+
+private:
+  Sight OfPlaces(
+    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
+
+  const Geometry& Shapes_;
+};
+
+} // namespace smokevis
