@@ -5,7 +5,9 @@
 #include "SignVeil.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <glm/gtc/constants.hpp>
@@ -18,6 +20,9 @@ namespace
 
 /// Standard error of the contrast above which the veil is gathered.
 constexpr double UncertainContrast = 0.005;
+/// Square of the change of optical depth over a zone, along either edge, that is counted at most:
+/// beyond it means of exponentials are no quadratics.
+constexpr double MostSquaredChange = 1.0;
 /// A sign whose parts are all fainter than this share of the observer's own noise is not worth
 /// gathering for: it stands out by a hundredth at most.
 constexpr double FaintShare = 0.01;
@@ -41,7 +46,14 @@ public:
   SignMeasurement Measure(double cutOff);
 
 private:
-  Coefficients FactorsOf(const Facet& facet, const SignSight::Zone& zone);
+  /// Optical depth at 633 nm of the smoke before a zone's middle.
+  double DepthOf(const SignSight::Zone& zone) const;
+  /// Of each zone of a part, the squares of that depth's changes over it along both edges of the
+  /// plate, together, as its neighbours tell; 0 where pixels average them.
+  std::vector<double> SquaredChanges(
+    const SignSight::Part& part, const std::vector<double>& depths) const;
+  SeenBlock SeenThrough(
+    const Facet& facet, const SignSight::Zone& zone, double depth, double squaredChange);
   /// The light of the sign itself, as it arrives from each block.
   void FillFactors();
   void MakeVeils();
@@ -66,22 +78,86 @@ private:
   SignMeasurement Result_;
 };
 
-Coefficients SignLook::FactorsOf(const Facet& facet, const SignSight::Zone& zone)
+double SignLook::DepthOf(const SignSight::Zone& zone) const
 {
-  Coefficients factors{};
+  const Vec3 way = this->Sight_.Places()[zone.Place].Point - this->Eye_;
+  const double distance = glm::length(way);
+  return this->View_.TheScene().Smoke().OpticalDepth(this->Eye_, way / distance, 0.0, distance);
+}
+
+std::vector<double> SignLook::SquaredChanges(
+  const SignSight::Part& part, const std::vector<double>& depths) const
+{
+  const std::vector<SignSight::Zone>& zones = part.Zones;
+  std::vector<double> changes(zones.size(), 0.0);
+  if (!this->Sight_.Resolved())
+  {
+    return changes;
+  }
+  std::array<std::size_t, 2> size{};
+  for (const SignSight::Zone& zone : zones)
+  {
+    size = {std::max(size[0], zone.At[0] + 1), std::max(size[1], zone.At[1] + 1)};
+  }
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> numbers(size[0] * size[1], none);
+  for (std::size_t i = 0; i < zones.size(); ++i)
+  {
+    numbers[zones[i].At[0] + size[0] * zones[i].At[1]] = i;
+  }
+  // Over a zone, if it is that to its neighbour's middle.
+  const auto change = [&](std::size_t zone, std::size_t neighbour, int axis)
+  {
+    if (neighbour == none)
+    {
+      return 0.0;
+    }
+    const double distance = std::abs(this->Sight_.Places()[zones[neighbour].Place].OnPlate[axis] -
+                                     this->Sight_.Places()[zones[zone].Place].OnPlate[axis]);
+    return distance > 0.0 ? zones[zone].Size[axis] * (depths[neighbour] - depths[zone]) / distance
+                          : 0.0;
+  };
+  for (std::size_t i = 0; i < zones.size(); ++i)
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const std::size_t at = zones[i].At[axis];
+      const std::size_t step = axis == 0 ? 1 : size[0];
+      const std::size_t here = zones[i].At[0] + size[0] * zones[i].At[1];
+      const std::size_t before = at > 0 ? numbers[here - step] : none;
+      const std::size_t behind = at + 1 < size[axis] ? numbers[here + step] : none;
+      const double first = change(i, before, axis);
+      const double last = change(i, behind, axis);
+      // Where smoke begins or is uneven, one side tells nothing of the other.
+      const double both = before == none   ? last * last
+                          : behind == none ? first * first
+                                           : -first * last;
+      changes[i] += std::clamp(both, 0.0, MostSquaredChange);
+    }
+  }
+  return changes;
+}
+
+SeenBlock SignLook::SeenThrough(
+  const Facet& facet, const SignSight::Zone& zone, double depth, double squaredChange)
+{
+  SeenBlock block{};
+  Coefficients& factors = block.Factors;
   const SeenPlace& place = this->Sight_.Places()[zone.Place];
   const Scene& scene = this->View_.TheScene();
-  const Vec3 way = place.Point - this->Eye_;
-  const double distance = glm::length(way);
-  const Vec3 direction = way / distance;
-  const double depth = scene.Smoke().OpticalDepth(this->Eye_, direction, 0.0, distance);
+  const Vec3 direction = glm::normalize(place.Point - this->Eye_);
   const double relative = this->Lights_.CellLaw(facet.Luminous.value_or(zone.Cell))
                             .Relative(-direction, -glm::dot(direction, facet.Normal));
   for (int band = 0; band < this->Bands_; ++band)
   {
     const double share = BandWeight(this->View_, band);
-    const double bandDepth = scene.ExtinctionScale(band) * depth;
-    const double transmitted = share * std::exp(-bandDepth);
+    const double scale = scene.ExtinctionScale(band);
+    const double bandDepth = scale * depth;
+    // What an optical depth lets through that goes straight from side to side.
+    const double transmitted =
+      share * std::exp(-bandDepth) * (1.0 + scale * scale * squaredChange / 24.0);
+    block.Spread[1 + band] = scale * std::sqrt(squaredChange / 12.0);
+    block.Spread[1 + MaxBands + band] = block.Spread[1 + band];
     Lanes multiple;
     double steady = 0.0;
     if (zone.Reflects)
@@ -98,23 +174,27 @@ Coefficients SignLook::FactorsOf(const Facet& facet, const SignSight::Zone& zone
     }
     this->Result_.OpticalDepth += place.Weight / this->Sight_.Seen() * share * bandDepth;
   }
-  return factors;
+  return block;
 }
 
 void SignLook::FillFactors()
 {
   for (const SignSight::Part& part : this->Sight_.Parts())
   {
-    std::vector<Coefficients> factors;
-    for (const SignSight::Zone& zone : part.Zones)
+    std::vector<double> depths(part.Zones.size());
+    std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
+      [this](const SignSight::Zone& zone) { return this->DepthOf(zone); });
+    const std::vector<double> changes = this->SquaredChanges(part, depths);
+    std::vector<SeenBlock> zones;
+    for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
-      factors.push_back(this->FactorsOf(part.Front, zone));
+      zones.push_back(this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i]));
     }
     std::vector<SeenBlock>& blocks = this->Blocks_.emplace_back();
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
-      const double density = part.Densities[i];
-      blocks.push_back({density, density > 0.0 ? factors[part.ZoneOf[i]] : Coefficients{}});
+      blocks.push_back(part.Densities[i] > 0.0 ? zones[part.ZoneOf[i]] : SeenBlock{});
+      blocks.back().Density = part.Densities[i];
     }
   }
 }

@@ -47,14 +47,17 @@ void AddLight(
 }
 
 /// The same of its square.
+/// @param spread of the factors (SeenBlock)
 void AddSquare(const ResampledFactors& factors,
-  const std::array<PatternVector, PatternValues>& products, double weight, Resampled& square)
+  const std::array<PatternVector, PatternValues>& products, const PatternVector& spread,
+  double weight, Resampled& square)
 {
   for (int i = 0; i < PatternValues; ++i)
   {
     for (int j = 0; j <= i; ++j)
     {
-      const double share = (i == j ? 1.0 : 2.0) * weight * products[i][j];
+      const double share =
+        (i == j ? 1.0 : 2.0) * weight * (1.0 + spread[i] * spread[j]) * products[i][j];
       if (share == 0.0)
       {
         continue;
@@ -118,7 +121,7 @@ void AddPixels(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks
     const double density = blocks[index].Density;
     sums.Weight += density * block.Sum[0];
     AddLight(factors[index], block.Sum, density, sums.First);
-    AddSquare(factors[index], block.Products, density, sums.Second);
+    AddSquare(factors[index], block.Products, blocks[index].Spread, density, sums.Second);
   }
   const std::vector<PatternPiece>& pieces = pattern.Pieces();
   for (std::size_t i = 0; i < pieces.size();)

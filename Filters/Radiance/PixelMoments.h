@@ -15,6 +15,9 @@ struct SeenBlock
   /// Solid angle of a unit of the pattern's area, of what is not hidden.
   double Density;
   Coefficients Factors;
+  /// By how much each factor differs over the block, where places are not averaged in pixels:
+  /// standard deviation over mean.
+  PatternVector Spread{};
 };
 
 /// Factors of the mean of all batches.

@@ -15,9 +15,12 @@ namespace
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
 /// A block over which the optical depth from the eye changes by more than this is halved, so often
-/// at most: its middle stands for all of it, to the square of the change over 24. Where smoke would
-/// cut an edge into more blocks than so many, twice the change is allowed, and so on.
-constexpr double LargestChange = 0.1;
+/// at most: what its middle and those of its neighbours tell stands for all of it. In pixels, its
+/// middle does, to the square of the change over 24 in its mean and over 12 in its mean square.
+/// Blocks that add less to those of the plate may change by more. Where smoke would cut an edge
+/// into more blocks than so many, twice the change is allowed, and so on.
+constexpr double LargestChange = 0.3;
+constexpr double LargestChangeInPixels = 0.1;
 constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
 /// Optical depth, beyond that to the clearest place, from which on nothing is seen beside that.
@@ -73,13 +76,13 @@ glm::dvec2 MiddleOf(const PatternBlock& block)
 SignSight::SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity)
     : View_(view), Lights_(view.TheScene().Lights()), Plate_(sign), Eye_(eye),
       Across_(Lights_, sign, 0), Up_(Lights_, sign, 1), EdgeU_(sign.Corners[1] - sign.Corners[0]),
-      EdgeV_(sign.Corners[3] - sign.Corners[0]), Lit_(LitCells(Lights_, sign))
+      EdgeV_(sign.Corners[3] - sign.Corners[0]), Pixels_(this->Pixels(acuity)),
+      Lit_(LitCells(Lights_, sign))
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, sign, eye);
-  const std::array<int, 2> pixels = this->Pixels(acuity);
   const PlateBorders borders = this->Borders();
-  this->AddWhole(facets, pixels, borders);
-  if (pixels[0] != 0 || facets.size() > MostCutFacets)
+  this->AddWhole(facets, borders);
+  if (!this->Resolved() || facets.size() > MostCutFacets)
   {
     return;
   }
@@ -102,7 +105,6 @@ SignSight::SignSight(const View& view, const Sign& sign, const Vec3& eye, double
   }
 }
 
-/// Pixels of the observer's image along both edges; none where all detail is resolved.
 std::array<int, 2> SignSight::Pixels(double acuity) const
 {
   double narrowest = 1e300;
@@ -154,12 +156,12 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
       });
     return depths;
   };
-  std::vector<Depths> known;
+  std::vector<Depths> known(borders.size());
+  std::transform(borders.begin(), borders.end(), known.begin(), depthsAt);
   double clearest = std::numeric_limits<double>::infinity();
-  for (const double border : borders)
+  for (const Depths& depths : known)
   {
-    known.push_back(depthsAt(border));
-    clearest = std::min(clearest, *std::min_element(known.back().begin(), known.back().end()));
+    clearest = std::min(clearest, *std::min_element(depths.begin(), depths.end()));
   }
   std::vector<double> cut;
   // Halves what lies between two borders where that is too much, and adds the borders after the
@@ -183,8 +185,8 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     self(self, from, first, middle, within, halvings - 1, change);
     self(self, middle, within, to, last, halvings - 1, change);
   };
-  for (double change = LargestChange; cut.empty() || cut.size() > MostBlocks + borders.size();
-       change *= 2.0)
+  for (double change = this->Resolved() ? LargestChange : LargestChangeInPixels;
+       cut.empty() || cut.size() > MostBlocks + borders.size(); change *= 2.0)
   {
     cut.assign(1, borders[0]);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i)
@@ -195,8 +197,7 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
   return cut;
 }
 
-PlatePattern SignSight::PatternOf(
-  const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const
+PlatePattern SignSight::PatternOf(const Facet& facet, const PlateBorders& borders) const
 {
   std::vector<PatternCell> cells;
   for (const std::size_t index : facet.Cells)
@@ -216,15 +217,15 @@ PlatePattern SignSight::PatternOf(
     cell.Lit = this->Lit_[index];
     cells.push_back(std::move(cell));
   }
-  return {cells, PatternAxis(borders[0], pixels[0]), PatternAxis(borders[1], pixels[1])};
+  return {
+    cells, PatternAxis(borders[0], this->Pixels_[0]), PatternAxis(borders[1], this->Pixels_[1])};
 }
 
-void SignSight::AddWhole(
-  const std::vector<Facet>& facets, const std::array<int, 2>& pixels, const PlateBorders& borders)
+void SignSight::AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders)
 {
   for (const Facet& facet : facets)
   {
-    PlatePattern pattern = this->PatternOf(facet, pixels, borders);
+    PlatePattern pattern = this->PatternOf(facet, borders);
     std::vector<double> shares;
     for (const PatternBlock& block : pattern.Blocks())
     {
@@ -232,7 +233,7 @@ void SignSight::AddWhole(
     }
     std::vector<std::size_t> zoneOf(pattern.Blocks().size());
     std::iota(zoneOf.begin(), zoneOf.end(), std::size_t{0});
-    this->AddPart(facet, std::move(pattern), shares, zoneOf);
+    this->AddPart(facet, std::move(pattern), shares, zoneOf, borders);
   }
 }
 
@@ -252,14 +253,15 @@ void SignSight::AddCut(const std::vector<Facet>& facets, const std::vector<Plate
         zoneOf.push_back(column + row * (borders[0].size() - 1));
       }
     }
-    PlatePattern pattern = this->PatternOf(facets[i], {0, 0}, halved);
-    this->AddPart(facets[i], std::move(pattern), SeenShares(halved, looks[i]), zoneOf);
+    PlatePattern pattern = this->PatternOf(facets[i], halved);
+    this->AddPart(facets[i], std::move(pattern), SeenShares(halved, looks[i]), zoneOf, borders);
   }
 }
 
 void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
-  const std::vector<std::size_t>& zoneOf)
+  const std::vector<std::size_t>& zoneOf, const PlateBorders& borders)
 {
+  const std::size_t columns = borders[0].size() - 1;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   Part part{facet, std::move(pattern), {}, {}, {}};
   std::vector<std::size_t> numbers(1 + *std::max_element(zoneOf.begin(), zoneOf.end()), none);
@@ -287,7 +289,13 @@ void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vec
     if (number == none)
     {
       number = part.Zones.size();
-      part.Zones.push_back({this->Places_.size()});
+      Zone zone{this->Places_.size()};
+      zone.At = {zoneOf[i] % columns, zoneOf[i] / columns};
+      for (int axis = 0; axis < 2 && this->Resolved(); ++axis)
+      {
+        zone.Size[axis] = borders[axis][zone.At[axis] + 1] - borders[axis][zone.At[axis]];
+      }
+      part.Zones.push_back(zone);
       this->Places_.emplace_back();
       largest.push_back(0.0);
     }

@@ -27,6 +27,10 @@ public:
     std::size_t Cell = 0;
     /// Whether any cell in it reflects.
     bool Reflects = false;
+    /// Where all detail is resolved: column and row among all zones of its part, and its size along
+    /// the plate's edges, 0 to 1.
+    std::array<std::size_t, 2> At{};
+    glm::dvec2 Size{0.0};
   };
   /// A plane part of the sign.
   struct Part
@@ -43,6 +47,8 @@ public:
   SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity);
 
   const std::vector<Part>& Parts() const { return this->Parts_; }
+  /// Whether the eye makes out all detail: no pixels average what a zone shows.
+  bool Resolved() const { return this->Pixels_[0] == 0; }
   /// Of all zones of all parts.
   const std::vector<SeenPlace>& Places() const { return this->Places_; }
   /// Columns and rows of the pattern.
@@ -60,18 +66,17 @@ private:
   /// more at one border than at the next.
   std::vector<double> CutBySmoke(const std::vector<double>& borders, int axis) const;
   std::array<int, 2> Pixels(double acuity) const;
-  PlatePattern PatternOf(
-    const Facet& facet, const std::array<int, 2>& pixels, const PlateBorders& borders) const;
+  PlatePattern PatternOf(const Facet& facet, const PlateBorders& borders) const;
   /// Takes in facets in whole blocks, a zone each.
-  void AddWhole(const std::vector<Facet>& facets, const std::array<int, 2>& pixels,
-    const PlateBorders& borders);
+  void AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders);
   /// Takes them in where something hides a part; blocks that were one stay one zone.
   void AddCut(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
     const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);
   /// @param shares of the blocks that are seen
-  /// @param zoneOf each block, from 0 on
+  /// @param zoneOf each block, from 0 on, row after row
+  /// @param borders of the zones
   void AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
-    const std::vector<std::size_t>& zoneOf);
+    const std::vector<std::size_t>& zoneOf, const PlateBorders& borders);
   /// Share of a block's places that the eye sees.
   double VisibleShare(const Facet& facet, const PatternBlock& block) const;
   double DensityOf(const Facet& facet, const Vec3& point) const;
@@ -83,6 +88,8 @@ private:
   const Vec3& Eye_;
   PlateColumns Across_, Up_;
   Vec3 EdgeU_, EdgeV_;
+  /// Of the observer's image along both edges; none where all detail is resolved.
+  std::array<int, 2> Pixels_;
   std::vector<bool> Lit_;
   std::vector<Part> Parts_;
   std::vector<SeenPlace> Places_;
