@@ -9,6 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include <glm/gtc/constants.hpp>
 
@@ -20,9 +23,9 @@ namespace
 
 /// Standard error of the contrast above which the veil is gathered.
 constexpr double UncertainContrast = 0.005;
-/// Square of the change of optical depth over a zone, along either edge, that is counted at most:
-/// beyond it means of exponentials are no quadratics.
-constexpr double MostSquaredChange = 1.0;
+/// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
+/// of exponentials are no quadratics.
+constexpr double MostChange = 1.0;
 /// A sign whose parts are all fainter than this share of the observer's own noise is not worth
 /// gathering for: it stands out by a hundredth at most.
 constexpr double FaintShare = 0.01;
@@ -48,12 +51,13 @@ public:
 private:
   /// Optical depth at 633 nm of the smoke before a zone's middle.
   double DepthOf(const SignSight::Zone& zone) const;
-  /// Of each zone of a part, the squares of that depth's changes over it along both edges of the
-  /// plate, together, as its neighbours tell; 0 where pixels average them.
-  std::vector<double> SquaredChanges(
-    const SignSight::Part& part, const std::vector<double>& depths) const;
+  /// Of each zone of a part, by how much a value changes over it along both edges of the plate, as
+  /// its neighbours tell; 0 where pixels average them.
+  /// @param values of all zones
+  std::vector<glm::dvec2> Changes(
+    const SignSight::Part& part, const std::vector<double>& values) const;
   SeenBlock SeenThrough(
-    const Facet& facet, const SignSight::Zone& zone, double depth, double squaredChange);
+    const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change);
   /// The light of the sign itself, as it arrives from each block.
   void FillFactors();
   void MakeVeils();
@@ -73,6 +77,8 @@ private:
   SignSight Sight_;
   /// Of each part.
   std::vector<std::vector<SeenBlock>> Blocks_;
+  /// Of each part and zone (Changes).
+  std::vector<std::vector<glm::dvec2>> DepthChanges_;
   /// Of each band.
   std::vector<std::unique_ptr<SignVeil>> Veils_;
   SignMeasurement Result_;
@@ -85,11 +91,11 @@ double SignLook::DepthOf(const SignSight::Zone& zone) const
   return this->View_.TheScene().Smoke().OpticalDepth(this->Eye_, way / distance, 0.0, distance);
 }
 
-std::vector<double> SignLook::SquaredChanges(
-  const SignSight::Part& part, const std::vector<double>& depths) const
+std::vector<glm::dvec2> SignLook::Changes(
+  const SignSight::Part& part, const std::vector<double>& values) const
 {
   const std::vector<SignSight::Zone>& zones = part.Zones;
-  std::vector<double> changes(zones.size(), 0.0);
+  std::vector<glm::dvec2> changes(zones.size(), glm::dvec2(0.0));
   if (!this->Sight_.Resolved())
   {
     return changes;
@@ -105,42 +111,56 @@ std::vector<double> SignLook::SquaredChanges(
   {
     numbers[zones[i].At[0] + size[0] * zones[i].At[1]] = i;
   }
-  // Over a zone, if it is that to its neighbour's middle.
-  const auto change = [&](std::size_t zone, std::size_t neighbour, int axis)
+  const auto beside = [&](std::size_t zone, int axis, bool behind)
   {
-    if (neighbour == none)
-    {
-      return 0.0;
-    }
-    const double distance = std::abs(this->Sight_.Places()[zones[neighbour].Place].OnPlate[axis] -
-                                     this->Sight_.Places()[zones[zone].Place].OnPlate[axis]);
-    return distance > 0.0 ? zones[zone].Size[axis] * (depths[neighbour] - depths[zone]) / distance
-                          : 0.0;
+    const std::size_t at = zones[zone].At[axis];
+    const std::size_t here = zones[zone].At[0] + size[0] * zones[zone].At[1];
+    const std::size_t step = axis == 0 ? 1 : size[0];
+    return behind ? (at + 1 < size[axis] ? numbers[here + step] : none)
+                  : (at > 0 ? numbers[here - step] : none);
+  };
+  const auto slope = [&](std::size_t zone, std::size_t next, int axis)
+  {
+    // Middles of what is seen of two zones may lie closer than they do.
+    const double apart = std::max(0.25 * (zones[zone].Size[axis] + zones[next].Size[axis]),
+      this->Sight_.Places()[zones[next].Place].OnPlate[axis] -
+        this->Sight_.Places()[zones[zone].Place].OnPlate[axis]);
+    return (values[next] - values[zone]) / apart;
   };
   for (std::size_t i = 0; i < zones.size(); ++i)
   {
     for (int axis = 0; axis < 2; ++axis)
     {
-      const std::size_t at = zones[i].At[axis];
-      const std::size_t step = axis == 0 ? 1 : size[0];
-      const std::size_t here = zones[i].At[0] + size[0] * zones[i].At[1];
-      const std::size_t before = at > 0 ? numbers[here - step] : none;
-      const std::size_t behind = at + 1 < size[axis] ? numbers[here + step] : none;
-      const double first = change(i, before, axis);
-      const double last = change(i, behind, axis);
+      std::size_t first = beside(i, axis, false);
+      std::size_t middle = i;
+      std::size_t last = beside(i, axis, true);
+      if (first == none && last != none)
+      {
+        std::tie(first, middle, last) = std::tuple(i, last, beside(last, axis, true));
+      }
+      else if (last == none && first != none)
+      {
+        std::tie(first, middle, last) = std::tuple(beside(first, axis, false), first, i);
+      }
+      if (first == none || last == none)
+      {
+        continue;
+      }
       // Where smoke begins or is uneven, one side tells nothing of the other.
-      const double both = before == none   ? last * last
-                          : behind == none ? first * first
-                                           : -first * last;
-      changes[i] += std::clamp(both, 0.0, MostSquaredChange);
+      const double before = slope(first, middle, axis);
+      const double behind = slope(middle, last, axis);
+      changes[i][axis] = before * behind > 0.0
+                           ? zones[i].Size[axis] * std::copysign(std::sqrt(before * behind), before)
+                           : 0.0;
     }
   }
   return changes;
 }
 
 SeenBlock SignLook::SeenThrough(
-  const Facet& facet, const SignSight::Zone& zone, double depth, double squaredChange)
+  const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change)
 {
+  const double squaredChange = glm::dot(change, change);
   SeenBlock block{};
   Coefficients& factors = block.Factors;
   const SeenPlace& place = this->Sight_.Places()[zone.Place];
@@ -184,12 +204,17 @@ void SignLook::FillFactors()
     std::vector<double> depths(part.Zones.size());
     std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
       [this](const SignSight::Zone& zone) { return this->DepthOf(zone); });
-    const std::vector<double> changes = this->SquaredChanges(part, depths);
+    std::vector<glm::dvec2> changes = this->Changes(part, depths);
+    for (glm::dvec2& change : changes)
+    {
+      change = glm::clamp(change, -MostChange, MostChange);
+    }
     std::vector<SeenBlock> zones;
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
       zones.push_back(this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i]));
     }
+    this->DepthChanges_.push_back(std::move(changes));
     std::vector<SeenBlock>& blocks = this->Blocks_.emplace_back();
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
@@ -233,11 +258,32 @@ void SignLook::AddVeils()
   for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
     const SignSight::Part& part = this->Sight_.Parts()[index];
+    std::vector<double> means(part.Zones.size());
+    std::transform(part.Zones.begin(), part.Zones.end(), means.begin(),
+      [&veils](const SignSight::Zone& zone)
+      {
+        const DoubleLanes& veil = veils[zone.Place];
+        return std::accumulate(veil.begin(), veil.end(), 0.0) / Batches;
+      });
+    const std::vector<glm::dvec2> changes = this->Changes(part, means);
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
-      for (int batch = 0; batch < Batches && part.Densities[i] > 0.0; ++batch)
+      if (!(part.Densities[i] > 0.0))
       {
-        this->Blocks_[index][i].Factors[batch][0] = veils[part.Zones[part.ZoneOf[i]].Place][batch];
+        continue;
+      }
+      const std::size_t zone = part.ZoneOf[i];
+      const glm::dvec2& depth = this->DepthChanges_[index][zone];
+      const double squared = glm::dot(depth, depth);
+      // What glows before a sign grows where that is dimmed: a veil that changes with the depth is
+      // curved as what comes through is, and goes against it.
+      const double along =
+        squared > 0.0 && means[zone] > 0.0 ? glm::dot(changes[zone], depth) / means[zone] : 0.0;
+      SeenBlock& block = this->Blocks_[index][i];
+      block.Spread[0] = squared > 0.0 ? -along / std::sqrt(12.0 * squared) : 0.0;
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        block.Factors[batch][0] = veils[part.Zones[zone].Place][batch] * (1.0 - along / 24.0);
       }
     }
   }

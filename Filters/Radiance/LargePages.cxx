@@ -10,6 +10,14 @@
 namespace smokevis
 {
 
+namespace
+{
+
+/// As x86 and most others have them.
+[[maybe_unused]] constexpr std::size_t LargePage = std::size_t{1} << 21;
+
+} // namespace
+
 void BackWithLargePages([[maybe_unused]] const void* begin, [[maybe_unused]] std::size_t bytes)
 {
 #ifdef __linux__
@@ -17,7 +25,7 @@ void BackWithLargePages([[maybe_unused]] const void* begin, [[maybe_unused]] std
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = (address + page - 1) / page * page;
   const std::uintptr_t end = (address + bytes) / page * page;
-  if (first < end)
+  if (bytes >= LargePage)
   {
     // A system without them is slower, and no worse.
     (void)madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);

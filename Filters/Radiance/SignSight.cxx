@@ -15,12 +15,14 @@ namespace
 /// Blocks of the plate along its longer side, at least.
 constexpr double BlocksAcross = 8.0;
 /// A block over which the optical depth from the eye changes by more than this is halved, so often
-/// at most: what its middle and those of its neighbours tell stands for all of it. In pixels, its
-/// middle does, to the square of the change over 24 in its mean and over 12 in its mean square.
-/// Blocks that add less to those of the plate may change by more. Where smoke would cut an edge
-/// into more blocks than so many, twice the change is allowed, and so on.
+/// at most. Where smoke would cut an edge into more blocks than so many, twice the change is
+/// allowed, and so on.
 constexpr double LargestChange = 0.3;
-constexpr double LargestChangeInPixels = 0.1;
+/// The same where neighbours do not tell how it changes inside a block, since there are too few of
+/// them or pixels average them: its middle stands for all of it, to the square of the change over
+/// 24 in its mean and over 12 in its mean square.
+constexpr double LargestChangeAlone = 0.1;
+constexpr std::size_t FewestBlocks = 3;
 constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
 /// Optical depth, beyond that to the clearest place, from which on nothing is seen beside that.
@@ -185,7 +187,8 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     self(self, from, first, middle, within, halvings - 1, change);
     self(self, middle, within, to, last, halvings - 1, change);
   };
-  for (double change = this->Resolved() ? LargestChange : LargestChangeInPixels;
+  const bool told = this->Resolved() && borders.size() > FewestBlocks;
+  for (double change = told ? LargestChange : LargestChangeAlone;
        cut.empty() || cut.size() > MostBlocks + borders.size(); change *= 2.0)
   {
     cut.assign(1, borders[0]);

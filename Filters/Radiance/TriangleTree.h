@@ -22,7 +22,7 @@ struct Hit
 {
   /// Distance along the ray [m]; infinity: nothing was hit.
   double Distance = std::numeric_limits<double>::infinity();
-  /// Place of the triangle among Geometry's, of the surfaces or of the emitters.
+  /// Its place in the tree.
   std::uint32_t Triangle = 0;
   /// True where a plate of a sign or lamp was hit.
   bool Emitter = false;
