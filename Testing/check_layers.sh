@@ -12,9 +12,9 @@ report()
 }
 report "VTK or ParaView headers below the VTK layer" \
   "$(grep -rnE '#include *[<"](vtk|pq)' Filters/Radiance Readers/Formats Readers/CAD)"
-report "Embree outside Filters/Radiance/TriangleTree" \
+report "Embree outside Filters/Radiance/Geometry" \
   "$(grep -rnE 'embree[34]/|\brtc[A-Z]' Filters Readers Plugin --include='*.h' --include='*.cxx' |
-    grep -vE '^Filters/Radiance/TriangleTree\.(h|cxx):')"
+    grep -vE '^Filters/Radiance/Geometry\.(h|cxx):')"
 report "CAD libraries outside Readers/CAD" \
   "$(grep -rnE '#include *[<"](assimp/|(BRep|XCAF|STEP|IGES|TopoDS|Message_))' \
     Filters Readers Plugin --include='*.h' --include='*.cxx' |

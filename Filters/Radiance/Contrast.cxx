@@ -3,14 +3,12 @@
 #include "PixelMoments.h"
 #include "SignSight.h"
 #include "SignVeil.h"
+#include "ZoneChanges.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <glm/gtc/constants.hpp>
@@ -51,11 +49,8 @@ public:
 private:
   /// Optical depth at 633 nm of the smoke before a zone's middle.
   double DepthOf(const SignSight::Zone& zone) const;
-  /// Of each zone of a part, by how much a value changes over it along both edges of the plate, as
-  /// its neighbours tell; 0 where pixels average them.
-  /// @param values of all zones
-  std::vector<glm::dvec2> Changes(
-    const SignSight::Part& part, const std::vector<double>& values) const;
+  /// What comes through the smoke before a zone, without its own light.
+  /// @param change of the depth over the zone (ZoneChanges)
   SeenBlock SeenThrough(
     const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change);
   /// The light of the sign itself, as it arrives from each block.
@@ -77,7 +72,8 @@ private:
   SignSight Sight_;
   /// Of each part.
   std::vector<std::vector<SeenBlock>> Blocks_;
-  /// Of each part and zone (Changes).
+  std::vector<ZoneChanges> Changes_;
+  /// Changes of the optical depth at 633 nm over the zones of each part.
   std::vector<std::vector<glm::dvec2>> DepthChanges_;
   /// Of each band.
   std::vector<std::unique_ptr<SignVeil>> Veils_;
@@ -89,72 +85,6 @@ double SignLook::DepthOf(const SignSight::Zone& zone) const
   const Vec3 way = this->Sight_.Places()[zone.Place].Point - this->Eye_;
   const double distance = glm::length(way);
   return this->View_.TheScene().Smoke().OpticalDepth(this->Eye_, way / distance, 0.0, distance);
-}
-
-std::vector<glm::dvec2> SignLook::Changes(
-  const SignSight::Part& part, const std::vector<double>& values) const
-{
-  const std::vector<SignSight::Zone>& zones = part.Zones;
-  std::vector<glm::dvec2> changes(zones.size(), glm::dvec2(0.0));
-  if (!this->Sight_.Resolved())
-  {
-    return changes;
-  }
-  std::array<std::size_t, 2> size{};
-  for (const SignSight::Zone& zone : zones)
-  {
-    size = {std::max(size[0], zone.At[0] + 1), std::max(size[1], zone.At[1] + 1)};
-  }
-  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> numbers(size[0] * size[1], none);
-  for (std::size_t i = 0; i < zones.size(); ++i)
-  {
-    numbers[zones[i].At[0] + size[0] * zones[i].At[1]] = i;
-  }
-  const auto beside = [&](std::size_t zone, int axis, bool behind)
-  {
-    const std::size_t at = zones[zone].At[axis];
-    const std::size_t here = zones[zone].At[0] + size[0] * zones[zone].At[1];
-    const std::size_t step = axis == 0 ? 1 : size[0];
-    return behind ? (at + 1 < size[axis] ? numbers[here + step] : none)
-                  : (at > 0 ? numbers[here - step] : none);
-  };
-  const auto slope = [&](std::size_t zone, std::size_t next, int axis)
-  {
-    // Middles of what is seen of two zones may lie closer than they do.
-    const double apart = std::max(0.25 * (zones[zone].Size[axis] + zones[next].Size[axis]),
-      this->Sight_.Places()[zones[next].Place].OnPlate[axis] -
-        this->Sight_.Places()[zones[zone].Place].OnPlate[axis]);
-    return (values[next] - values[zone]) / apart;
-  };
-  for (std::size_t i = 0; i < zones.size(); ++i)
-  {
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      std::size_t first = beside(i, axis, false);
-      std::size_t middle = i;
-      std::size_t last = beside(i, axis, true);
-      if (first == none && last != none)
-      {
-        std::tie(first, middle, last) = std::tuple(i, last, beside(last, axis, true));
-      }
-      else if (last == none && first != none)
-      {
-        std::tie(first, middle, last) = std::tuple(beside(first, axis, false), first, i);
-      }
-      if (first == none || last == none)
-      {
-        continue;
-      }
-      // Where smoke begins or is uneven, one side tells nothing of the other.
-      const double before = slope(first, middle, axis);
-      const double behind = slope(middle, last, axis);
-      changes[i][axis] = before * behind > 0.0
-                           ? zones[i].Size[axis] * std::copysign(std::sqrt(before * behind), before)
-                           : 0.0;
-    }
-  }
-  return changes;
 }
 
 SeenBlock SignLook::SeenThrough(
@@ -204,7 +134,7 @@ void SignLook::FillFactors()
     std::vector<double> depths(part.Zones.size());
     std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
       [this](const SignSight::Zone& zone) { return this->DepthOf(zone); });
-    std::vector<glm::dvec2> changes = this->Changes(part, depths);
+    std::vector<glm::dvec2> changes = this->Changes_.emplace_back(this->Sight_, part).Of(depths);
     for (glm::dvec2& change : changes)
     {
       change = glm::clamp(change, -MostChange, MostChange);
@@ -265,7 +195,7 @@ void SignLook::AddVeils()
         const DoubleLanes& veil = veils[zone.Place];
         return std::accumulate(veil.begin(), veil.end(), 0.0) / Batches;
       });
-    const std::vector<glm::dvec2> changes = this->Changes(part, means);
+    const std::vector<glm::dvec2> changes = this->Changes_[index].Of(means);
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
       if (!(part.Densities[i] > 0.0))

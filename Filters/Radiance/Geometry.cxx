@@ -1,8 +1,17 @@
 #include "Geometry.h"
 
+#include "Errors.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <embree3/rtcore.h>
 
 namespace smokevis
 {
@@ -17,16 +26,262 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// the rounding of the single precision that Embree works in.
 constexpr double RelativeTolerance = 1e-5;
 constexpr double RoundingShare = 1e-6;
-/// Cosine of the angle between surfaces above which those that touch lie in one another.
-constexpr double SamePlane = 0.999;
 
-Hit OtherSide(Hit hit)
+/// What Embree's filter callback adds to: every triangle that a line meets.
+struct Gathering
 {
-  hit.Side = 1 - hit.Side;
+  RTCIntersectContext Context;
+  std::vector<std::pair<std::uint32_t, float>>* Met;
+};
+
+void GatherAll(const RTCFilterFunctionNArguments* arguments)
+{
+  const auto* gathering = reinterpret_cast<const Gathering*>(arguments->context);
+  gathering->Met->emplace_back(
+    RTCHitN_primID(arguments->hit, arguments->N, 0), RTCRayN_tfar(arguments->ray, arguments->N, 0));
+  // Not taken, so that the search goes on behind it.
+  arguments->valid[0] = 0;
+}
+
+/// A ray in Embree's units, whose start was moved forward in double precision so that it is exact.
+/// None where it begins or leads beyond what single precision reaches: from there a scene is less
+/// than a point, and Embree would end the program.
+/// @param centre of the scene
+std::optional<RTCRay> MakeRay(const RayPiece& piece, const Vec3& centre)
+{
+  const Vec3 origin = piece.Origin + piece.Begin * piece.Direction - centre;
+  const Vec3& direction = piece.Direction;
+  const double length = piece.End - piece.Begin;
+  RTCRay ray;
+  ray.org_x = static_cast<float>(origin.x);
+  ray.org_y = static_cast<float>(origin.y);
+  ray.org_z = static_cast<float>(origin.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tnear = 0.0F;
+  ray.tfar = static_cast<float>(length);
+  ray.time = 0.0F;
+  ray.mask = ~0U;
+  ray.id = 0;
+  ray.flags = 0;
+  const std::array<float, 6> values = {
+    ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z};
+  const bool within =
+    std::all_of(values.begin(), values.end(), [](float value) { return std::abs(value) < 1e18F; });
+  return within && length > 0.0 ? std::optional<RTCRay>(ray) : std::nullopt;
+}
+
+/// Rays of one packet: as many as the widest registers hold. Narrower machines take them in parts.
+constexpr std::size_t PacketSize = 16;
+
+RTCRayHit MakeQuery(const RTCRay& ray)
+{
+  RTCRayHit query;
+  query.ray = ray;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+/// Rays that are traced at once.
+struct Packet
+{
+  /// Nothing lies on a ray that ends before it begins.
+  Packet() { std::fill(std::begin(this->Rays.tfar), std::end(this->Rays.tfar), -1.0F); }
+
+  RTCRay16 Rays{};
+  /// Those that count: -1, others: 0.
+  alignas(64) std::array<int, PacketSize> Valid{};
+
+  void Set(std::size_t number, const RTCRay& ray)
+  {
+    this->Valid[number] = -1;
+    this->Rays.org_x[number] = ray.org_x;
+    this->Rays.org_y[number] = ray.org_y;
+    this->Rays.org_z[number] = ray.org_z;
+    this->Rays.dir_x[number] = ray.dir_x;
+    this->Rays.dir_y[number] = ray.dir_y;
+    this->Rays.dir_z[number] = ray.dir_z;
+    this->Rays.tnear[number] = ray.tnear;
+    this->Rays.tfar[number] = ray.tfar;
+    this->Rays.time[number] = ray.time;
+    this->Rays.mask[number] = ray.mask;
+    this->Rays.id[number] = ray.id;
+    this->Rays.flags[number] = ray.flags;
+  }
+};
+
+} // namespace
+
+TriangleTree::Device TriangleTree::NewDevice()
+{
+  RTCDevice device = rtcNewDevice("set_affinity=0");
+  if (device == nullptr)
+  {
+    throw Error("surfaces", "Embree could not be started", "Check that the machine has SSE2");
+  }
+  return {device, rtcReleaseDevice};
+}
+
+TriangleTree::TriangleTree(const Device& device, const SurfaceMesh& mesh, bool emitters,
+  const Vec3& centre, double tolerance)
+    : Triangles_(UsefulTriangles(mesh)), Centre_(centre), Tolerance_(tolerance), Emitters_(emitters)
+{
+  if (this->Triangles_.empty())
+  {
+    return;
+  }
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+    geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.Points.size()));
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+    RTC_FORMAT_UINT3, 3 * sizeof(unsigned), this->Triangles_.size()));
+  if (vertices == nullptr || indices == nullptr)
+  {
+    rtcReleaseGeometry(geometry);
+    throw Error("surfaces",
+      "Embree has no memory for " + std::to_string(this->Triangles_.size()) + " triangles",
+      "Use a coarser model or a machine with more memory");
+  }
+  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      vertices[3 * i + axis] = static_cast<float>(mesh.Points[i][axis] - centre[axis]);
+    }
+  }
+  for (std::size_t i = 0; i < this->Triangles_.size(); ++i)
+  {
+    const auto& triangle = mesh.Triangles[this->Triangles_[i]];
+    this->Cells_.push_back(mesh.TriangleCell[this->Triangles_[i]]);
+    std::copy(triangle.begin(), triangle.end(), indices + 3 * i);
+    const Vec3& corner = mesh.Points[triangle[0]];
+    this->Corners_.push_back(corner);
+    this->Normals_.push_back(glm::normalize(
+      glm::cross(mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
+  }
+  rtcCommitGeometry(geometry);
+  // Embree 3 uses the device while it takes a scene apart, but holds on to it only until then: it
+  // has to end after the scene.
+  this->Tree_ = {rtcNewScene(device.get()), [device](RTCScene scene) { rtcReleaseScene(scene); }};
+  rtcSetSceneFlags(this->Tree_.get(),
+    static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcAttachGeometry(this->Tree_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(this->Tree_.get());
+}
+
+Hit TriangleTree::MakeHit(const Vec3& origin, const Vec3& direction, double begin, double end,
+  std::uint32_t triangle, double rough) const
+{
+  Hit hit;
+  hit.Triangle = triangle;
+  hit.Emitter = this->Emitters_;
+  // The plane of the triangle gives the distance to double precision.
+  const Vec3& normal = this->Normals_[triangle];
+  const double facing = glm::dot(normal, direction);
+  const double exact = glm::dot(normal, this->Corners_[triangle] - origin) / facing;
+  hit.Distance = std::abs(exact - rough) <= 100.0 * this->Tolerance_ ? exact : rough;
+  hit.Distance = std::clamp(hit.Distance, begin, end);
+  hit.Side = facing < 0.0 ? 0 : 1;
   return hit;
 }
 
-} // namespace
+Hit TriangleTree::Intersect(
+  const Vec3& origin, const Vec3& direction, double begin, double end) const
+{
+  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  if (this->Empty() || !ray)
+  {
+    return {};
+  }
+  RTCRayHit query = MakeQuery(*ray);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(this->Tree_.get(), &context, &query);
+  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID
+           ? Hit()
+           : this->MakeHit(origin, direction, begin, end, query.hit.primID, begin + query.ray.tfar);
+}
+
+void TriangleTree::IntersectAll(
+  const Vec3& origin, const Vec3& direction, double begin, double end, std::vector<Hit>& hits) const
+{
+  hits.clear();
+  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  if (this->Empty() || !ray)
+  {
+    return;
+  }
+  thread_local std::vector<std::pair<std::uint32_t, float>> met;
+  met.clear();
+  RTCRayHit query = MakeQuery(*ray);
+  Gathering gathering;
+  rtcInitIntersectContext(&gathering.Context);
+  gathering.Context.filter = GatherAll;
+  gathering.Met = &met;
+  rtcIntersect1(this->Tree_.get(), &gathering.Context, &query);
+  for (const auto& [triangle, distance] : met)
+  {
+    hits.push_back(this->MakeHit(origin, direction, begin, end, triangle, begin + distance));
+  }
+  std::sort(hits.begin(), hits.end(),
+    [](const Hit& a, const Hit& b)
+    { return a.Distance != b.Distance ? a.Distance < b.Distance : a.Triangle < b.Triangle; });
+}
+
+bool TriangleTree::Occluded(
+  const Vec3& origin, const Vec3& direction, double begin, double end) const
+{
+  std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  if (this->Empty() || !ray)
+  {
+    return false;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(this->Tree_.get(), &context, &*ray);
+  return ray->tfar < 0.0F;
+}
+
+std::vector<bool> TriangleTree::Clear(
+  std::initializer_list<const TriangleTree*> trees, std::span<const RayPiece> pieces)
+{
+  std::vector<bool> clear(pieces.size(), true);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < pieces.size(); first += PacketSize)
+  {
+    const std::size_t count = std::min(PacketSize, pieces.size() - first);
+    Packet packet;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (const auto ray = MakeRay(pieces[first + i], (*trees.begin())->Centre_))
+      {
+        packet.Set(i, *ray);
+      }
+    }
+    for (const TriangleTree* tree : trees)
+    {
+      if (tree->Empty())
+      {
+        continue;
+      }
+      rtcOccluded16(packet.Valid.data(), tree->Tree_.get(), &context, &packet.Rays);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        if (packet.Valid[i] != 0 && packet.Rays.tfar[i] < 0.0F)
+        {
+          packet.Valid[i] = 0;
+          clear[first + i] = false;
+        }
+      }
+    }
+  }
+  return clear;
+}
 
 Geometry::Geometry(
   const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize, double coreSize)
@@ -60,26 +315,6 @@ bool Geometry::Touch(const Hit& surface, const Hit& plate, const Vec3& direction
   return std::abs(plate.Distance - surface.Distance) * facing <= this->Tolerance_;
 }
 
-Hit Geometry::FirstOfModel(std::vector<Hit>::const_iterator nearest,
-  std::vector<Hit>::const_iterator end, double gap, bool farthest) const
-{
-  if (nearest == end)
-  {
-    return {};
-  }
-  const auto behind = std::find_if(
-    nearest, end, [&](const Hit& hit) { return hit.Distance > nearest->Distance + gap; });
-  Hit first = farthest ? *(behind - 1) : *nearest;
-  const Vec3 normal = this->Surfaces_.Normal(first.Triangle);
-  for (auto other = nearest; other != behind; ++other)
-  {
-    const bool inside =
-      std::abs(glm::dot(normal, this->Surfaces_.Normal(other->Triangle))) > SamePlane;
-    first = inside && other->Triangle < first.Triangle ? *other : first;
-  }
-  return first;
-}
-
 void Geometry::IntersectBoth(const Vec3& origin, const Vec3& direction, double begin, double end,
   Hit& surface, Hit& plate) const
 {
@@ -103,105 +338,6 @@ Hit Geometry::Intersect(const Vec3& origin, const Vec3& direction, double begin,
     return plate.Side == 0 ? plate : surface;
   }
   return plate.Distance < surface.Distance ? plate : surface;
-}
-
-void Geometry::Cross(const Vec3& origin, const Vec3& direction, double begin, double end,
-  std::vector<Crossing>& crossings) const
-{
-  crossings.clear();
-  const double gap = 2.0 * this->Tolerance_;
-  thread_local std::vector<Hit> surfaces;
-  thread_local std::vector<Hit> plates;
-  this->Surfaces_.IntersectAll(origin, direction, begin, end, surfaces);
-  this->Emitters_.IntersectAll(origin, direction, begin, end, plates);
-  auto nextSurface = surfaces.begin();
-  auto nextPlate = plates.begin();
-  while (end > begin)
-  {
-    const auto behind = [begin](const Hit& hit) { return hit.Distance >= begin; };
-    nextSurface = std::find_if(nextSurface, surfaces.end(), behind);
-    nextPlate = std::find_if(nextPlate, plates.end(), behind);
-    // Where a line cuts an edge, it comes out of another surface than it went into: taken for
-    // one, they would let it into a closed box, or out.
-    const Hit surface = this->FirstOfModel(nextSurface, surfaces.end(), gap, false);
-    const Hit last = this->FirstOfModel(nextSurface, surfaces.end(), gap, true);
-    const Hit plate = nextPlate == plates.end() ? Hit() : *nextPlate;
-    if (!surface.Found() && !plate.Found())
-    {
-      break;
-    }
-    Crossing crossing;
-    const bool touch = surface.Found() && plate.Found() && this->Touch(surface, plate, direction);
-    crossing.Several = touch || (surface.Found() && std::next(nextSurface) != surfaces.end() &&
-                                  std::next(nextSurface)->Distance <= nextSurface->Distance + gap);
-    if (touch)
-    {
-      crossing.Arrive = plate.Side == 0 ? plate : surface;
-      crossing.Leave = OtherSide(plate.Side == 0 ? last : plate);
-    }
-    else
-    {
-      const bool onPlate = plate.Distance < surface.Distance;
-      crossing.Arrive = onPlate ? plate : surface;
-      crossing.Leave = OtherSide(onPlate ? plate : last);
-    }
-    begin = std::max(crossing.Arrive.Distance, crossing.Leave.Distance) + gap;
-    // A line meets a plane triangle once: a second time is rounding at grazing incidence.
-    const bool again = !crossings.empty() &&
-                       crossings.back().Arrive.Triangle == crossing.Arrive.Triangle &&
-                       crossings.back().Arrive.Emitter == crossing.Arrive.Emitter;
-    if (!again)
-    {
-      crossings.push_back(crossing);
-    }
-  }
-  if (!this->Bodies_.empty())
-  {
-    this->PreferOwnBacks(surfaces, crossings);
-  }
-}
-
-void Geometry::PreferOwnBacks(
-  const std::vector<Hit>& surfaces, std::vector<Crossing>& crossings) const
-{
-  const double gap = 2.0 * this->Tolerance_;
-  for (Crossing& crossing : crossings)
-  {
-    const double low = crossing.Arrive.Distance - gap;
-    const double high = crossing.Arrive.Distance + gap;
-    for (auto hit = surfaces.begin(); crossing.Several && hit != surfaces.end(); ++hit)
-    {
-      const std::uint32_t body = this->Bodies_[hit->Triangle];
-      if (hit->Distance < low || hit->Distance > high || body == NoBody)
-      {
-        continue;
-      }
-      // Whether the line went into the body where it met that last, and leaves it where it will
-      // meet it next.
-      const auto ofBody = [&](const Hit& other) { return this->Bodies_[other.Triangle] == body; };
-      const auto meets = [&](const Hit& place, int side)
-      {
-        return std::any_of(surfaces.begin(), surfaces.end(),
-          [&](const Hit& other)
-          {
-            return ofBody(other) && other.Side == side &&
-                   std::abs(other.Distance - place.Distance) <= gap;
-          });
-      };
-      const auto last = std::find_if(surfaces.rbegin(), surfaces.rend(),
-        [&](const Hit& other) { return other.Distance < low && ofBody(other); });
-      const auto next = std::find_if(surfaces.begin(), surfaces.end(),
-        [&](const Hit& other) { return other.Distance > high && ofBody(other); });
-      if (hit->Side == 1 && !crossing.Arrive.Emitter && last != surfaces.rend() && meets(*last, 0))
-      {
-        crossing.Arrive = *hit;
-      }
-      if (hit->Side == 0 && !crossing.Leave.Emitter && next != surfaces.end() && meets(*next, 1))
-      {
-        crossing.Leave = OtherSide(*hit);
-      }
-    }
-  }
 }
 
 bool Geometry::Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const
