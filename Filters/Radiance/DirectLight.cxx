@@ -127,6 +127,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
       const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
       const double distance = glm::length(to);
       ways.Extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
+      ways.Most = std::max(ways.Most, ways.Extinction[j][i]);
     }
   }
   return ways;
@@ -193,9 +194,10 @@ void DirectLight::AddLeaf(
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
   const bool parted = !few && path.Visible < 1.0;
   // Two points an edge follow what changes little.
-  const bool thin = leaf.Law == EmissionLaw() && this->Scene_.Smoke().MaximumExtinction() *
-                                                     this->Scene_.LargestScale() * leaf.Radius <
-                                                   EvenDepth;
+  const double most =
+    receiver.Close ? receiver.Close->Most : this->Scene_.Smoke().MaximumExtinction();
+  const bool thin =
+    leaf.Law == EmissionLaw() && most * this->Scene_.LargestScale() * leaf.Radius < EvenDepth;
   double weights = 0.0;
   Spectrum weighted{};
   const auto add = [&](double u, double v, double share, bool seen)

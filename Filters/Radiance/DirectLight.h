@@ -92,6 +92,8 @@ private:
     /// Edges of the plate over the squares of their lengths.
     Vec3 Along{0.0}, Up{0.0};
     std::array<std::array<double, 3>, 3> Extinction{};
+    /// The largest of them.
+    double Most = 0.0;
 
     double At(const Vec3& place) const;
   };

@@ -103,20 +103,6 @@ void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 
 } // namespace
 
-Vec3 LightGroup::At(double u, double v) const
-{
-  return (1.0 - v) * ((1.0 - u) * this->Corners[0] + u * this->Corners[1]) +
-         v * ((1.0 - u) * this->Corners[3] + u * this->Corners[2]);
-}
-
-double LightGroup::AreaAt(double u, double v) const
-{
-  const std::array<Vec3, 4>& corners = this->Corners;
-  const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
-  const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
-  return glm::length(glm::cross(du, dv));
-}
-
 double LightGroup::Distance(const Vec3& point) const
 {
   if (this->FirstChild < 0)

@@ -83,8 +83,18 @@ struct LightGroup
   /// Distance of a point from the edges of the leaf or of that rectangle [m].
   double EdgeDistance(const Vec3& point) const;
   /// A place between the corners, and the area for each unit of u and v there [m2].
-  Vec3 At(double u, double v) const;
-  double AreaAt(double u, double v) const;
+  Vec3 At(double u, double v) const
+  {
+    return (1.0 - v) * ((1.0 - u) * this->Corners[0] + u * this->Corners[1]) +
+           v * ((1.0 - u) * this->Corners[3] + u * this->Corners[2]);
+  }
+  double AreaAt(double u, double v) const
+  {
+    const std::array<Vec3, 4>& corners = this->Corners;
+    const Vec3 du = (1.0 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
+    const Vec3 dv = (1.0 - u) * (corners[3] - corners[0]) + u * (corners[2] - corners[1]);
+    return glm::length(glm::cross(du, dv));
+  }
 };
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells

@@ -39,7 +39,8 @@ public:
 private:
   struct Level;
 
-  /// Logarithm of the light's fluence at a node over the closed form's; -infinity where it is 0.
+  /// The light's fluence at a node over the closed form's, or its logarithm; that is -infinity
+  /// where it is 0.
   float NodeValue(const Level& level, const std::array<int, 3>& node, int band) const;
   /// The same at a place, by the quadratic through the nodes around it; not finite where it is 0 at
   /// one of them.
@@ -53,8 +54,8 @@ private:
   double Away(const Vec3& place) const;
   /// Solid angle of the plate's rectangle, or of a single leaf.
   double PlateAngle(const Vec3& point) const;
-  /// Optical depth of even smoke between a place and the plate [-].
-  double EvenDepth(const Vec3& place, int band) const;
+  /// Optical depth at 633 nm of even smoke between a place and the plate [-].
+  double EvenDepth(const Vec3& place) const;
 
   const Scene& Scene_;
   const DirectLight& Direct_;
