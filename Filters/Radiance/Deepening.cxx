@@ -9,6 +9,13 @@ namespace smokevis
 namespace
 {
 
+/// Mean extinction between the centres of two cells [1/m].
+double Between(const CellWay& cell, const CellWay& other, int axis)
+{
+  return (cell.Extinction * cell.Size[axis] + other.Extinction * other.Size[axis]) /
+         (cell.Size[axis] + other.Size[axis]);
+}
+
 /// The derivative that the way from one cell beside another tells, and how far from the cell's
 /// centre that is met: in the middle of half of the cell and half of the other, each by its smoke.
 struct SlopeBeside
@@ -21,7 +28,7 @@ struct SlopeBeside
     const double own = cell.Extinction * cell.Size[axis];
     const double others = other.Extinction * other.Size[axis];
     const double edges = cell.Size[axis] + other.Size[axis];
-    const double between = (own + others) / edges;
+    const double between = Between(cell, other, axis);
     const double share = between > 0.0 ? cell.Extinction / between : 1.0;
     const double excess = cell.Depth - other.Depth - between * (cell.Distance - other.Distance);
     this->Slope = even + share * excess / (cell.Centre[axis] - other.Centre[axis]);
@@ -45,6 +52,17 @@ Deepening Deepening::Even(const CellWay& cell, const Vec3& light)
   return {mean, cell.Extinction * DirectionOf(cell.Centre - light)};
 }
 
+CellWay Deepening::Onwards(const CellWay& cell, const CellWay& before, const Vec3& light, int axis)
+{
+  CellWay behind = before;
+  behind.Centre[axis] = 2.0 * cell.Centre[axis] - before.Centre[axis];
+  behind.Distance = glm::length(light - behind.Centre);
+  const double between = Between(cell, before, axis);
+  behind.Depth = 2.0 * cell.Depth - before.Depth -
+                 between * (2.0 * cell.Distance - before.Distance - behind.Distance);
+  return behind;
+}
+
 Deepening Deepening::Within(
   const CellWay& cell, const std::array<std::array<CellWay, 2>, 3>& beside, const Vec3& light)
 {
@@ -52,15 +70,14 @@ Deepening Deepening::Within(
   for (int axis = 0; axis < 3; ++axis)
   {
     double& slope = result.Slope[axis];
-    const int lit = cell.Centre[axis] > light[axis] ? 0 : 1;
-    const CellWay& before = beside[axis][lit];
+    const CellWay& before = beside[axis][LitSide(cell, light, axis)];
     result.Border =
       std::max(result.Border, std::abs(cell.Extinction - before.Extinction) * cell.Size[axis]);
     const SlopeBeside below(cell, beside[axis][0], axis, slope);
     const SlopeBeside above(cell, beside[axis][1], axis, slope);
     if (ClearBefore(before.Extinction, cell.Extinction))
     {
-      result.Entry[axis] = std::abs(lit == 0 ? below.Slope : above.Slope);
+      result.Entry[axis] = std::abs(&before == &beside[axis][0] ? below.Slope : above.Slope);
     }
     const double change = (above.Slope - below.Slope) / (below.Place + above.Place);
     slope = below.Slope + change * below.Place;

@@ -42,6 +42,14 @@ struct Deepening
   {
     return before < ClearShare * extinction;
   }
+  /// The side of a cell along an axis that light comes from: low (0) or high (1).
+  static int LitSide(const CellWay& cell, const Vec3& light, int axis)
+  {
+    return cell.Centre[axis] > light[axis] ? 0 : 1;
+  }
+  /// The way from as far behind a cell as another lies before it, if ways get deeper behind it as
+  /// they do before it.
+  static CellWay Onwards(const CellWay& cell, const CellWay& before, const Vec3& light, int axis);
   /// Where the smoke is even.
   /// @param light where the ways lead to
   static Deepening Even(const CellWay& cell, const Vec3& light);

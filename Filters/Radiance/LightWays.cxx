@@ -113,12 +113,17 @@ CellWay LightWays::From(std::int64_t cell, const std::optional<double>& extincti
 }
 
 template <class Known>
-CellWay LightWays::FromBeside(
+std::optional<CellWay> LightWays::FromBeside(
   std::int64_t cell, const CellWay& way, int axis, int side, Known&& known) const
 {
   if (const std::int64_t other = this->Smoke_.Neighbour(cell, axis, side); other >= 0)
   {
     return this->From(other, known(other));
+  }
+  if (side != Deepening::LitSide(way, this->Light_.Centre, axis) &&
+      this->Smoke_.Neighbour(cell, axis, 1 - side) >= 0)
+  {
+    return std::nullopt;
   }
   // Outside of all meshes there is clear air.
   CellWay outside{way.Centre, way.Size};
@@ -147,10 +152,12 @@ template <class Beside> Deepening LightWays::Around(const CellWay& way, Beside&&
   std::array<std::array<CellWay, 2>, 3> ways;
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (int side = 0; side < 2; ++side)
-    {
-      ways[axis][side] = beside(axis, side);
-    }
+    // Behind the last cell it gets deeper as it does before it.
+    const int lit = Deepening::LitSide(way, this->Light_.Centre, axis);
+    ways[axis][lit] = *beside(axis, lit);
+    const std::optional<CellWay> behind = beside(axis, 1 - lit);
+    ways[axis][1 - lit] =
+      behind ? *behind : Deepening::Onwards(way, ways[axis][lit], this->Light_.Centre, axis);
   }
   return Deepening::Within(way, ways, this->Light_.Centre);
 }
@@ -192,7 +199,7 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
       }
       const std::int64_t cell = this->Smoke_.Cell(block, place);
       result.push_back(this->Around(way,
-        [&](int axis, int side)
+        [&](int axis, int side) -> std::optional<CellWay>
         {
           std::array<int, 3> other = place;
           other[axis] += side == 0 ? -1 : 1;

@@ -47,14 +47,15 @@ public:
 private:
   /// @param extinction mean along the way, if known [1/m]
   CellWay From(std::int64_t cell, const std::optional<double>& extinction = {}) const;
-  /// From the cell across a face of a cell, or from as far in the clear air there.
+  /// From the cell across a face of a cell, or from as far in the clear air there; none where there
+  /// is no cell behind the last one as seen from the light.
   /// @param known(other) mean extinction along the way from that cell, if known [1/m]
   template <class Known>
-  CellWay FromBeside(
+  std::optional<CellWay> FromBeside(
     std::int64_t cell, const CellWay& way, int axis, int side, Known&& known) const;
   /// Whether a way leads through smoke like that of its cell.
   bool Even(const CellWay& way) const;
-  /// @param beside(axis, side) the way from the cell there
+  /// @param beside(axis, side) the way from the cell there; on the side behind there may be none
   template <class Beside> Deepening Around(const CellWay& way, Beside&& beside) const;
 
   const Medium& Smoke_;
