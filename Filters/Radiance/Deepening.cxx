@@ -25,15 +25,12 @@ struct SlopeBeside
   /// @param even the derivative in even smoke
   SlopeBeside(const CellWay& cell, const CellWay& other, int axis, double even)
   {
-    const double own = cell.Extinction * cell.Size[axis];
-    const double others = other.Extinction * other.Size[axis];
-    const double edges = cell.Size[axis] + other.Size[axis];
     const double between = Between(cell, other, axis);
     const double share = between > 0.0 ? cell.Extinction / between : 1.0;
     const double excess = cell.Depth - other.Depth - between * (cell.Distance - other.Distance);
     this->Slope = even + share * excess / (cell.Centre[axis] - other.Centre[axis]);
-    this->Place =
-      0.25 * (between > 0.0 ? cell.Size[axis] + others / (own + others) * edges : edges);
+    const double weight = between > 0.0 ? other.Extinction / between : 1.0;
+    this->Place = 0.25 * (cell.Size[axis] + weight * other.Size[axis]);
   }
 };
 
@@ -70,14 +67,15 @@ Deepening Deepening::Within(
   for (int axis = 0; axis < 3; ++axis)
   {
     double& slope = result.Slope[axis];
-    const CellWay& before = beside[axis][LitSide(cell, light, axis)];
+    const int lit = LitSide(cell, light, axis);
+    const CellWay& before = beside[axis][lit];
     result.Border =
       std::max(result.Border, std::abs(cell.Extinction - before.Extinction) * cell.Size[axis]);
     const SlopeBeside below(cell, beside[axis][0], axis, slope);
     const SlopeBeside above(cell, beside[axis][1], axis, slope);
     if (ClearBefore(before.Extinction, cell.Extinction))
     {
-      result.Entry[axis] = std::abs(&before == &beside[axis][0] ? below.Slope : above.Slope);
+      result.Entry[axis] = std::abs(lit == 0 ? below.Slope : above.Slope);
     }
     const double change = (above.Slope - below.Slope) / (below.Place + above.Place);
     slope = below.Slope + change * below.Place;

@@ -127,6 +127,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
       const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
       const double distance = glm::length(to);
       ways.Extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
+      ways.Least = std::min(ways.Least, ways.Extinction[j][i]);
       ways.Most = std::max(ways.Most, ways.Extinction[j][i]);
     }
   }
@@ -190,14 +191,15 @@ void DirectLight::AddLeaf(
   const double closed = receiver.Normal ? ProjectedSolidAngle(point, *receiver.Normal, corners)
                                         : SolidAngle(point, corners);
   // Mean of transmittance and of cos^n over the leaf, weighted as its light is.
-  const bool few = leaf.Radius < PathRatio * glm::length(leaf.Centre - point);
+  const double toCentre = glm::length(leaf.Centre - point);
+  const bool few = leaf.Radius < PathRatio * toCentre;
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
   const bool parted = !few && path.Visible < 1.0;
   // Two points an edge follow what changes little.
-  const double most =
-    receiver.Close ? receiver.Close->Most : this->Scene_.Smoke().MaximumExtinction();
-  const bool thin =
-    leaf.Law == EmissionLaw() && most * this->Scene_.LargestScale() * leaf.Radius < EvenDepth;
+  const double change = receiver.Close ? receiver.Close->Most * leaf.Radius +
+                                           (receiver.Close->Most - receiver.Close->Least) * toCentre
+                                       : this->Scene_.Smoke().MaximumExtinction() * leaf.Radius;
+  const bool thin = leaf.Law == EmissionLaw() && change * this->Scene_.LargestScale() < EvenDepth;
   double weights = 0.0;
   Spectrum weighted{};
   const auto add = [&](double u, double v, double share, bool seen)

@@ -7,6 +7,7 @@
 #include "Triangle.h"
 #include "Types.h"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -92,7 +93,8 @@ private:
     /// Edges of the plate over the squares of their lengths.
     Vec3 Along{0.0}, Up{0.0};
     std::array<std::array<double, 3>, 3> Extinction{};
-    /// The largest of them.
+    /// The smallest and the largest of them.
+    double Least = std::numeric_limits<double>::infinity();
     double Most = 0.0;
 
     double At(const Vec3& place) const;

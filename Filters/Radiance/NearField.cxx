@@ -36,7 +36,8 @@ constexpr double Lift = 1e-4;
 constexpr double ThinStep = 0.5;
 constexpr double ThickStep = 2.0;
 
-/// Optical depth of even smoke up to which what it dims is kept without it, in single precision.
+/// Optical depth of even smoke up to which the light that is left without it, many times that with
+/// it, does not overflow single precision.
 constexpr double LargestPlainDepth = 50.0;
 
 /// Places on the border of two boxes belong to the inner one, and those halfway between two nodes
@@ -160,10 +161,13 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;
     }
-    // What is interpolated linearly need not be: numbers must not overflow, though.
+    // Only a level that is interpolated linearly can do without them.
     const Vec3 corner = {this->Half_[0] + distance, this->Half_[1] + distance, distance};
-    level->Logarithms =
-      !level->Graded || scene.LargestScale() * this->EvenDepth(corner) > LargestPlainDepth;
+    level->Logarithms = !level->Graded;
+    for (int band = 0; band < scene.Bands(); ++band)
+    {
+      level->Logarithms = level->Logarithms || this->EvenDepth(corner, band) > LargestPlainDepth;
+    }
     level->Values =
       std::vector<std::atomic<float>>(static_cast<std::size_t>(level->Count[0]) * level->Count[1] *
                                       level->Count[2] * scene.Bands());
@@ -199,11 +203,12 @@ double NearField::PlateAngle(const Vec3& point) const
   return SolidAngle(point, this->Scene_.Lights().Root(this->Light_).Corners);
 }
 
-double NearField::EvenDepth(const Vec3& place) const
+double NearField::EvenDepth(const Vec3& place, int band) const
 {
   // The root of the mean square of the distances to all places of the plate.
   const double plate = (this->Half_[0] * this->Half_[0] + this->Half_[1] * this->Half_[1]) / 3.0;
-  return this->Extinction_ * std::sqrt(glm::dot(place, place) + plate);
+  return this->Extinction_ * this->Scene_.ExtinctionScale(band) *
+         std::sqrt(glm::dot(place, place) + plate);
 }
 
 float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
@@ -225,11 +230,9 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
   const double angle = this->PlateAngle(point);
   for (int each = 0; each < this->Scene_.Bands(); ++each)
   {
-    const bool lit = fluence[each] > 0.0 && angle > 0.0;
-    const double depth = this->Scene_.ExtinctionScale(each) * this->EvenDepth(place);
-    const double value = !level.Logarithms ? (lit ? fluence[each] / angle * std::exp(depth) : 0.0)
-                         : lit             ? std::log(fluence[each] / angle) + depth
-                                           : -std::numeric_limits<double>::infinity();
+    const double ratio = angle > 0.0 ? fluence[each] / angle : 0.0;
+    const double depth = this->EvenDepth(place, each);
+    const double value = level.Logarithms ? std::log(ratio) + depth : ratio * std::exp(depth);
     level.Values[level.Index(node, each)].store(
       static_cast<float>(value), std::memory_order_relaxed);
   }
@@ -267,8 +270,7 @@ double NearField::Fluence(const Vec3& point, int band) const
     const double logarithm = this->Quadratic(level, place, band);
     if (std::isfinite(logarithm))
     {
-      return even *
-             std::exp(logarithm - this->Scene_.ExtinctionScale(band) * this->EvenDepth(place));
+      return even * std::exp(logarithm - this->EvenDepth(place, band));
     }
   }
   return even * this->Linear(level, place, band);
@@ -320,7 +322,7 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
     const double end = level.Place(axis, node[axis] + 1);
     share[axis] = std::clamp((place[axis] - begin) / (end - begin), 0.0, 1.0);
   }
-  const double depth = this->Scene_.ExtinctionScale(band) * this->EvenDepth(place);
+  const double depth = this->EvenDepth(place, band);
   // Before a dark part of a pattern the fluence goes to 0 in proportion to the distance, in thick
   // smoke exponentially.
   const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) *

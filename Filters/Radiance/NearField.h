@@ -54,8 +54,8 @@ private:
   double Away(const Vec3& place) const;
   /// Solid angle of the plate's rectangle, or of a single leaf.
   double PlateAngle(const Vec3& point) const;
-  /// Optical depth at 633 nm of even smoke between a place and the plate [-].
-  double EvenDepth(const Vec3& place) const;
+  /// Optical depth of even smoke between a place and the plate [-].
+  double EvenDepth(const Vec3& place, int band) const;
 
   const Scene& Scene_;
   const DirectLight& Direct_;

@@ -21,35 +21,29 @@ struct Sighted
 /// A number whose argument is half of a triangle's solid angle.
 std::complex<double> HalfAngle(const Sighted& a, const Sighted& b, const Sighted& c)
 {
-  return {a.Distance * b.Distance * c.Distance + glm::dot(a.Way, b.Way) * c.Distance +
-            glm::dot(a.Way, c.Way) * b.Distance + glm::dot(b.Way, c.Way) * a.Distance,
-    std::abs(glm::dot(a.Way, glm::cross(b.Way, c.Way)))};
+  const std::complex<double> half(
+    a.Distance * b.Distance * c.Distance + glm::dot(a.Way, b.Way) * c.Distance +
+      glm::dot(a.Way, c.Way) * b.Distance + glm::dot(b.Way, c.Way) * a.Distance,
+    std::abs(glm::dot(a.Way, glm::cross(b.Way, c.Way))));
+  // Seen from its edge, it has no angle to tell.
+  return half == 0.0 ? 1.0 : half;
 }
 
 } // namespace
 
 double SolidAngle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  const std::complex<double> half = HalfAngle({point, a}, {point, b}, {point, c});
-  return half == 0.0 ? 0.0 : 2.0 * std::arg(half);
+  return 2.0 * std::arg(HalfAngle({point, a}, {point, b}, {point, c}));
 }
 
 double SolidAngle(const Vec3& point, const std::array<Vec3, 4>& corners)
 {
   const Sighted first(point, corners[0]);
   const Sighted across(point, corners[2]);
-  const std::complex<double> one = HalfAngle(first, {point, corners[1]}, across);
-  const std::complex<double> other = HalfAngle(first, across, {point, corners[3]});
-  // A triangle without area, or with the point on its edge, has no angle to tell.
-  if (one == 0.0 || other == 0.0)
-  {
-    return 2.0 * ((one == 0.0 ? 0.0 : std::arg(one)) + (other == 0.0 ? 0.0 : std::arg(other)));
-  }
   // Arguments of factors add up: one arctangent does for both triangles. In all they take pi at
   // most, but for rounding.
-  const double real = one.real() * other.real() - one.imag() * other.imag();
-  const double imaginary = one.real() * other.imag() + one.imag() * other.real();
-  return 2.0 * std::abs(std::atan2(imaginary, real));
+  return 2.0 * std::abs(std::arg(HalfAngle(first, {point, corners[1]}, across) *
+                                 HalfAngle(first, across, {point, corners[3]})));
 }
 
 double ProjectedSolidAngle(

@@ -316,6 +316,23 @@ TEST(PolygonLight, SolidAngle)
   EXPECT_NEAR(SolidAngle({5, 5, 1}, a, b, c), 0.0, 1e-12);
 }
 
+// A quadrilateral takes what the triangles on either side of a diagonal take, also from within its
+// plane and from its edges, and one with a corner twice is a triangle.
+TEST(PolygonLight, SolidAngleOfTwoTriangles)
+{
+  const std::array<Vec3, 4> corners = {
+    Vec3(-1, -1, 1), Vec3(2, -1, 1), Vec3(1, 1, 1), Vec3(-1, 2, 1)};
+  for (const Vec3& point : {Vec3(0.0), Vec3(3, -4, 0.5), Vec3(0.3, 0.2, 1 - 1e-6), Vec3(0, 0, 1e4),
+         Vec3(0.5, -0.5, 1), Vec3(4, 4, 1), Vec3(0, -1, 1), Vec3(0, 0, 1), corners[1]})
+  {
+    const double sum = SolidAngle(point, corners[0], corners[1], corners[2]) +
+                       SolidAngle(point, corners[0], corners[2], corners[3]);
+    EXPECT_NEAR(SolidAngle(point, corners), sum, 1e-12 * sum) << point.x << " " << point.y;
+    EXPECT_DOUBLE_EQ(SolidAngle(point, {corners[0], corners[1], corners[2], corners[2]}),
+      SolidAngle(point, corners[0], corners[1], corners[2]));
+  }
+}
+
 // Configuration factors of unit squares at distance 1: parallel 0.1998 is between areas; the point
 // form for a square of half width 1 at height 1, seen from below its centre, is
 // (4 / (2 pi)) * 2 * (1 / sqrt 2) atan(1 / sqrt 2) (Howell's catalogue, B-4).
