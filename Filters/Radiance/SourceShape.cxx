@@ -16,7 +16,8 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth across a cell below which a flat source errs by a thousandth at most.
+/// Optical depth across a cell below which a flat source errs by a thousandth at most of what it
+/// sends on, however little that is.
 constexpr double ThinnestDepth = 0.05;
 
 } // namespace
@@ -32,7 +33,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
   {
     const auto cell = static_cast<std::int64_t>(i);
     const double depth = extinction[i] * smoke.MeanChord(cell);
-    if (scene.Albedo() * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
+    if (depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
     {
       shaped.push_back(cell);
     }

@@ -24,10 +24,21 @@ constexpr double FaintestShare = 1e-7;
 /// than this share of the mean.
 constexpr double DarkShare = 0.1;
 
+bool AnythingSendsOn(const Scene& scene, int band)
+{
+  bool any = scene.Albedo() > 0.0;
+  for (std::size_t patch = 0; patch < scene.Patches() && !any; ++patch)
+  {
+    any = scene.PatchReflectance(patch)[band] > 0.0;
+  }
+  return any;
+}
+
 } // namespace
 
 VeilProbes::VeilProbes(
   const Scene& scene, const LightField& field, int band, std::uint64_t seed, Lines lines)
+    : Black_(!AnythingSendsOn(scene, band))
 {
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -91,7 +102,7 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
   std::vector<Segment> segments;
   scene.Smoke().WalkSmoke(eye, direction, 0.0, length, segments);
   double transmittance = 1.0;
-  const double scatter = scene.Albedo() / (4.0 * glm::pi<double>());
+  const double scatter = (this->Black_ ? 1.0 : scene.Albedo()) / (4.0 * glm::pi<double>());
   for (const Segment& segment : segments)
   {
     const double depth = scene.Smoke().Extinction(segment.Cell) * scene.ExtinctionScale(band) *
@@ -107,7 +118,8 @@ void VeilProbes::Add(const Scene& scene, const LightField& field, int band, cons
   {
     const std::size_t patch = scene.Patch(end);
     probe.Side = 2 * patch + end.Side;
-    probe.SurfaceWeight = transmittance * scene.PatchReflectance(patch)[band] / glm::pi<double>();
+    const double reflectance = this->Black_ ? 1.0 : scene.PatchReflectance(patch)[band];
+    probe.SurfaceWeight = transmittance * reflectance / glm::pi<double>();
     probe.Direct +=
       probe.SurfaceWeight * field.DirectIlluminance[field.PatchIndex(band, patch, end.Side)];
   }

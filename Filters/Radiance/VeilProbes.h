@@ -11,6 +11,8 @@ namespace smokevis
 {
 
 /// Lines of sight from random places to the scene's signs, or, without signs, in random directions.
+/// Where nothing sends light on, fluence and illuminance are all that is not seen directly: they
+/// are then watched as if all smoke were white and all surfaces too.
 class VeilProbes
 {
 public:
@@ -61,6 +63,8 @@ private:
     const Vec3& direction, double reach);
 
   std::vector<Probe> Probes_;
+  /// Whether neither smoke nor any surface sends light on.
+  bool Black_;
   /// Added to the light that errors are compared with [cd/m2].
   double Floor_ = 0.0;
   /// Share of the probes' mean light that is added as well: random lines also look where it is
