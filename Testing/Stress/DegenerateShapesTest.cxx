@@ -28,11 +28,12 @@ SceneDescription Room()
   return scene;
 }
 
-const Vec3 Eye{0.2, 0.9, 1.1};
+const Vec3 RoomEye{0.2, 0.9, 1.1};
 
 const SignMeasurement& PlainSign()
 {
-  static const SignMeasurement sign = MeasureSign(*Solved(Room()).TheView, 0, Eye, Observer{0.0});
+  static const SignMeasurement sign =
+    MeasureSign(*Solved(Room()).TheView, 0, RoomEye, Observer{0.0});
   return sign;
 }
 
@@ -43,7 +44,7 @@ void ExpectPlain(const std::string& name, const SceneDescription& scene)
   SCOPED_TRACE(name);
   const Solved solved(scene);
   stress::ExpectSaneField(solved);
-  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, Eye, Observer{0.0});
+  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, RoomEye, Observer{0.0});
   stress::ExpectSaneSign(sign);
   report::Relative(name + ", lit", PlainSign().LitLuminance, sign.LitLuminance, 0.01,
     std::hypot(PlainSign().MeanLuminanceError, sign.MeanLuminanceError));
@@ -187,7 +188,7 @@ TEST(DegenerateShapes, TwoSignsInOnePlace)
   stress::ExpectSaneField(solved);
   for (std::size_t sign = 0; sign < 2; ++sign)
   {
-    stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, Eye, Observer{0.0}));
+    stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, RoomEye, Observer{0.0}));
   }
 }
 

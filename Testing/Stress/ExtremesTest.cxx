@@ -31,7 +31,7 @@ SceneDescription ClosedBox(double depthOfCell, double albedo, double reflectance
   return scene;
 }
 
-const Vec3 Eye{0.1, 0.4, 0.5};
+const Vec3 BoxEye{0.1, 0.4, 0.5};
 
 double EmittedPower(const Solved& solved)
 {
@@ -64,7 +64,7 @@ TEST(Extremes, DepthAlbedoReflectance)
         {
           const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03, seed);
           stress::ExpectSaneField(solved);
-          stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
+          stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, BoxEye, Observer{0.0}));
           const Estimate smoke = solved.AbsorbedInSmoke();
           const Estimate surfaces = solved.AbsorbedOnSurfaces();
           absorbed.Mean += (smoke.Mean + surfaces.Mean) / seeds;
@@ -117,7 +117,7 @@ TEST(Extremes, OpaqueCells)
         {
           const Solved solved(ClosedBox(depth, albedo, reflectance), 0.03);
           stress::ExpectSaneField(solved);
-          const SignMeasurement sign = MeasureSign(*solved.TheView, 0, Eye, Observer{0.0});
+          const SignMeasurement sign = MeasureSign(*solved.TheView, 0, BoxEye, Observer{0.0});
           stress::ExpectSaneSign(sign);
           const Estimate smoke = solved.AbsorbedInSmoke();
           const Estimate surfaces = solved.AbsorbedOnSurfaces();
@@ -342,7 +342,7 @@ TEST(Extremes, ClearAndOpaqueCellsSideBySide)
     }
     const Solved solved(scene, 0.03);
     stress::ExpectSaneField(solved);
-    stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, Eye, Observer{0.0}));
+    stress::ExpectSaneSign(MeasureSign(*solved.TheView, 0, BoxEye, Observer{0.0}));
   }
 }
 
@@ -359,7 +359,7 @@ TEST(Extremes, LuminancesFarApart)
     }
     const Solved solved(scene, 0.1);
     stress::ExpectSaneField(solved);
-    const Ray ray{Eye, glm::normalize(Vec3(1.0, 0.3, 0.4))};
+    const Ray ray{BoxEye, glm::normalize(Vec3(1.0, 0.3, 0.4))};
     // The same random numbers: only roundings differ.
     EXPECT_NEAR(solved.Luminance(ray).Mean / (luminance * plain.Luminance(ray).Mean), 1.0, 1e-5);
   }

@@ -29,7 +29,7 @@ SceneDescription RoomInSmoke(double albedo = 0.8, double extinction = 0.6)
   return scene;
 }
 
-const Vec3 Eye{-1.2, -0.3, 0.1};
+const Vec3 Viewpoint{-1.2, -0.3, 0.1};
 
 /// Largest relative change of values that are not close to nothing.
 template <class T, class Value>
@@ -71,8 +71,9 @@ void CompareFields(
   report::Absolute("multiple illuminance", 0.0,
     LargestChange(plain.Field->MultipleIlluminance, other.Field->MultipleIlluminance, mean),
     tolerance);
-  const SignMeasurement a = MeasureSign(*plain.TheView, 0, Eye, Observer{0.0});
-  const SignMeasurement b = MeasureSign(*other.TheView, 0, scale * Eye + offset, Observer{0.0});
+  const SignMeasurement a = MeasureSign(*plain.TheView, 0, Viewpoint, Observer{0.0});
+  const SignMeasurement b =
+    MeasureSign(*other.TheView, 0, scale * Viewpoint + offset, Observer{0.0});
   report::Absolute("contrast", a.Contrast, b.Contrast, tolerance);
   report::Relative("mean luminance", a.MeanLuminance, b.MeanLuminance, tolerance);
 }
@@ -140,7 +141,7 @@ void CheckTurned(
   int number = 0;
   for (const Vec3& target : {Vec3(1.5, -0.3, 0.3), Vec3(1.5, -0.2, 0.3), Vec3(-0.1, 0.3, -0.2)})
   {
-    const Ray ray{turn * Eye, glm::normalize(turn * (target - Eye))};
+    const Ray ray{turn * Viewpoint, glm::normalize(turn * (target - Viewpoint))};
     const Estimate expected = reference.Radiance(ray, samples, 1);
     const Estimate value = solved.Luminance(ray);
     report::Relative(

@@ -1,6 +1,7 @@
 // CAD files that are missing, cut short or damaged, and what is said about them.
 #include "CadFile.h"
 #include "CadSamples.h"
+#include "ErrorText.h"
 #include "Errors.h"
 #include "FormatsTestRun.h"
 
@@ -17,15 +18,7 @@ namespace
 
 std::string Message(const std::string& fileName, const CadOptions& options = {})
 {
-  try
-  {
-    Read(fileName, options);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return test::ErrorText([&] { Read(fileName, options); });
 }
 
 TEST(CadErrors, NameTheFileAndTheRemedy)

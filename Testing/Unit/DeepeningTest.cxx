@@ -13,8 +13,8 @@ namespace
 
 using namespace smokevis;
 
-constexpr double Extinction = 12.0;
-constexpr double Edge = 0.05;
+constexpr double LayerExtinction = 12.0;
+constexpr double CellEdge = 0.05;
 /// Height below which there is smoke.
 constexpr double Top = 0.6;
 
@@ -29,11 +29,11 @@ LightGroup LightAt(const Vec3& place)
 /// A mesh of 2 x 1 x 1 m with a layer of smoke on its floor.
 Medium Layer()
 {
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, LayerExtinction);
   for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
   {
-    const double height = Edge * (static_cast<double>(cell / 800) + 0.5);
-    grid.Extinction[cell] = height < Top ? Extinction : 0.0F;
+    const double height = CellEdge * (static_cast<double>(cell / 800) + 0.5);
+    grid.Extinction[cell] = height < Top ? LayerExtinction : 0.0F;
   }
   return Medium({grid});
 }
@@ -59,21 +59,21 @@ TEST(Deepening, LightFallsAslantIntoALayer)
       const auto exact = [&](const Vec3& step)
       {
         const Vec3 way = from + step;
-        return Extinction * glm::length(way) * (depth - step.z) / -way.z;
+        return LayerExtinction * glm::length(way) * (depth - step.z) / -way.z;
       };
       const double here = exact(Vec3(0.0));
-      EXPECT_NEAR(around.Mean, here / glm::length(from), 1e-6 * Extinction);
+      EXPECT_NEAR(around.Mean, here / glm::length(from), 1e-6 * LayerExtinction);
       for (int axis = 0; axis < 3; ++axis)
       {
         Vec3 step(0.0);
-        for (const double size : {-0.5 * Edge, 0.5 * Edge})
+        for (const double size : {-0.5 * CellEdge, 0.5 * CellEdge})
         {
           step[axis] = size;
           // Of the depth along an edge in even smoke, a fiftieth; twice that where nothing tells of
           // what is behind.
           const bool last = column.x > 1.95 || column.y > 0.95 || depth > 0.55;
-          EXPECT_NEAR(
-            around.At(from, step), exact(step) - here, (last ? 0.04 : 0.02) * Extinction * Edge)
+          EXPECT_NEAR(around.At(from, step), exact(step) - here,
+            (last ? 0.04 : 0.02) * LayerExtinction * CellEdge)
             << "at " << column.x << ", " << column.y << ", depth " << depth << ", axis " << axis
             << ", step " << size;
         }
@@ -85,7 +85,7 @@ TEST(Deepening, LightFallsAslantIntoALayer)
 // In even smoke the depth goes with the distance.
 TEST(Deepening, EvenSmoke)
 {
-  const Medium smoke({scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction)});
+  const Medium smoke({scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, LayerExtinction)});
   const Vec3 place(0.21, 0.47, 0.93);
   const LightGroup light = LightAt(place);
   const LightWays ways(smoke, 1.0, light);
@@ -94,7 +94,7 @@ TEST(Deepening, EvenSmoke)
   const Deepening around = ways.DeepeningOf(smoke.Locate(centre));
   const Vec3 step(0.02, -0.013, 0.017);
   EXPECT_NEAR(
-    around.At(from, step), Extinction * (glm::length(from + step) - glm::length(from)), 1e-9);
+    around.At(from, step), LayerExtinction * (glm::length(from + step) - glm::length(from)), 1e-9);
   EXPECT_NEAR(around.Moved(from, step).At(from + step, -step), -around.At(from, step), 1e-9);
 }
 
@@ -134,7 +134,7 @@ void ForEachInBlocks(
 // those from beyond the block's faces and beyond the mesh, where a finer mesh begins.
 TEST(Deepening, OfCellsThatShareTheirWays)
 {
-  SmokeGrid coarse = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {20, 10, 10}, Extinction);
+  SmokeGrid coarse = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {20, 10, 10}, LayerExtinction);
   SmokeGrid fine = scenes::UniformSmoke(Vec3(0.55, 0.2, 0.3), {1.2, 1, 1.25}, {13, 16, 19}, 2.0);
   for (std::size_t cell = 0; cell < coarse.Extinction.size(); ++cell)
   {
@@ -155,7 +155,7 @@ TEST(Deepening, OfCellsThatShareTheirWays)
 // to the error that is allowed: a slope is off by no more than that over the length of a cell.
 TEST(Deepening, ToldFromBeyondABlock)
 {
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, LayerExtinction);
   for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
   {
     grid.Extinction[cell] *= 1.0F + 0.3F * std::sin(0.05F * static_cast<float>(cell % 40));
@@ -170,7 +170,7 @@ TEST(Deepening, ToldFromBeyondABlock)
       largest = std::max({largest, off.x, off.y, off.z});
     });
   EXPECT_GT(largest, 0.0);
-  EXPECT_LE(largest * Edge, allowed);
+  EXPECT_LE(largest * CellEdge, allowed);
 }
 
 // From the light's own place ways lead to all sides alike.
@@ -182,17 +182,17 @@ TEST(Deepening, AtTheLight)
   const Deepening around = LightWays(smoke, 1.0, light).DeepeningOf(smoke.Locate(centre));
   const Vec3 step(0.0, 0.01, 0.02);
   EXPECT_EQ(around.Slope, Vec3(0.0));
-  EXPECT_NEAR(around.At(Vec3(0.0), step), Extinction * glm::length(step), 1e-9);
+  EXPECT_NEAR(around.At(Vec3(0.0), step), LayerExtinction * glm::length(step), 1e-9);
   EXPECT_NEAR(around.Moved(Vec3(0.0), step).At(step, -step), -around.At(Vec3(0.0), step), 1e-9);
 }
 
 // Beside the smoke's edge, which the light shines along, ways are as deep as farther inside.
 TEST(Deepening, BesideALateralBorder)
 {
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, Extinction);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), {2, 1, 1}, {40, 20, 20}, LayerExtinction);
   for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
   {
-    grid.Extinction[cell] = cell % 40 < 20 ? Extinction : 0.0F;
+    grid.Extinction[cell] = cell % 40 < 20 ? LayerExtinction : 0.0F;
   }
   const Medium smoke({grid});
   const LightGroup light = LightAt({0.4, 0.5, 3.0});

@@ -1,8 +1,10 @@
-// Light on surfaces straight from a sign: which of them lie before it, and how much they get.
+// Light straight from a sign or a lamp: on surfaces before it, and close to it.
 #include "DirectLight.h"
+#include "NearLightScenes.h"
 #include "Scene.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -10,8 +12,7 @@ namespace
 {
 
 using namespace smokevis;
-
-constexpr double Pi = 3.141592653589793;
+using std::numbers::pi;
 
 /// A square of luminance 100 in the plane z, its front upwards.
 EmitterCell Square(const Vec3& centre, double side, int sign)
@@ -82,7 +83,40 @@ TEST(DirectLight, WhatStandsBeforePartOfASignGetsItsLight)
   EXPECT_EQ(found[0][0], 0.0);
   // The nearness of a part 0.1 m below is resolved to a percent, the far square adds nothing.
   EXPECT_NEAR(found[1][0] / expected, 1.0, 0.01);
-  EXPECT_LT(found[1][0], 100.0 * Pi);
+  EXPECT_LT(found[1][0], 100.0 * pi);
+}
+
+// Right before the middle of a plate its fluence is 2 pi L / (n + 1), farther off what a sum over
+// 400 x 400 places of the plate gives; beams far sharper than the plate is wide among them.
+TEST(DirectLight, SteepLawsCloseToThePlate)
+{
+  for (const double exponent : {0.0, 1.0, 3.0, 8.0, 16.0, 50.0})
+  {
+    const Scene scene(test::CeilingLamp(exponent, 0.0));
+    const DirectLight direct(scene);
+    for (const double height : {1e-6, 1e-5, 1e-4, 1e-3})
+    {
+      const double closed = 2000.0 * pi / (exponent + 1.0);
+      EXPECT_NEAR(direct.Fluence(0, {2, 2, 3 - height})[0] / closed, 1.0, 0.006)
+        << exponent << ' ' << height;
+    }
+    for (const double height : {0.05, 0.15, 0.45, 0.6, 0.9, 1.5})
+    {
+      const Vec3 point(2.1, 1.8, 3 - height);
+      constexpr int Steps = 400;
+      double sum = 0.0;
+      for (int i = 0; i < Steps * Steps; ++i)
+      {
+        const Vec3 to =
+          Vec3(1.7 + 0.6 * (i % Steps + 0.5) / Steps, 1.4 + 1.2 * (i / Steps + 0.5) / Steps, 3.0) -
+          point;
+        const double distance = glm::length(to);
+        sum += 1000.0 * 0.72 / (Steps * Steps) * std::pow(to.z / distance, exponent + 1.0) /
+               (distance * distance);
+      }
+      EXPECT_NEAR(direct.Fluence(0, point)[0] / sum, 1.0, 0.006) << exponent << ' ' << height;
+    }
+  }
 }
 
 } // namespace

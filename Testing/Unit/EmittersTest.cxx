@@ -14,7 +14,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 /// All lights shine directly, however large.
 constexpr double AnySize = 1e300;
 
@@ -36,7 +36,7 @@ TEST(Emitters, AreaNormalCentre)
   for (int corner = 0; corner < 6; ++corner)
   {
     hexagon.Vertices.emplace_back(
-      5.0 + std::cos(Pi / 3.0 * corner), std::sin(Pi / 3.0 * corner), 2.0);
+      5.0 + std::cos(pi / 3.0 * corner), std::sin(pi / 3.0 * corner), 2.0);
   }
   const EmitterSet set({triangle, hexagon}, 1, AnySize);
   EXPECT_DOUBLE_EQ(set.CellArea(0), 4.5);
@@ -52,9 +52,9 @@ TEST(Emitters, Flux)
   EmitterCell lambertian = Rectangle(0, 2, 0, 1, 10.0, -1);
   EmitterCell narrow = Rectangle(5, 6, 0, 1, 10.0, -1);
   narrow.Exponent = 8.0;
-  EXPECT_NEAR(EmitterSet({lambertian}, 1, AnySize).Flux(0), Pi * 10.0 * 2.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({narrow}, 1, AnySize).Flux(0), 2.0 * Pi * 10.0 / 10.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({lambertian, narrow}, 1, AnySize).Flux(0), Pi * 20.0 + 2.0 * Pi, 1e-9);
+  EXPECT_NEAR(EmitterSet({lambertian}, 1, AnySize).Flux(0), pi * 10.0 * 2.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({narrow}, 1, AnySize).Flux(0), 2.0 * pi * 10.0 / 10.0, 1e-9);
+  EXPECT_NEAR(EmitterSet({lambertian, narrow}, 1, AnySize).Flux(0), pi * 20.0 + 2.0 * pi, 1e-9);
 }
 
 TEST(Emitters, SignsInOrderOfTheirIds)
@@ -179,8 +179,8 @@ std::vector<EmitterCell> Ring()
   constexpr int Sides = 120;
   for (int i = 0; i < Sides; ++i)
   {
-    const double a = 2.0 * Pi * i / Sides;
-    const double b = 2.0 * Pi * (i + 1) / Sides;
+    const double a = 2.0 * pi * i / Sides;
+    const double b = 2.0 * pi * (i + 1) / Sides;
     EmitterCell cell;
     cell.Vertices = {{0.9 * std::cos(a), 0.9 * std::sin(a), 0}, {std::cos(a), std::sin(a), 0},
       {std::cos(b), std::sin(b), 0}, {0.9 * std::cos(b), 0.9 * std::sin(b), 0}};
@@ -219,7 +219,7 @@ TEST(Emitters, LightsFillTheirRectangles)
       EXPECT_NEAR(sum, set.Root(light).Intensity[0], 1e-9);
       intensity += sum;
     }
-    EXPECT_NEAR(Pi * intensity, set.Flux(0), 1e-9);
+    EXPECT_NEAR(pi * intensity, set.Flux(0), 1e-9);
   }
 }
 
@@ -281,7 +281,7 @@ TEST(Emitters, PatternsOfManyCellsAreCoarsened)
   EXPECT_NEAR(sum, intensity, 1e-9);
   EXPECT_NEAR(root.Intensity[0], intensity, 1e-9);
   EXPECT_NEAR(area, 3.0 * 1.4, 1e-9);
-  EXPECT_NEAR(set.Flux(0), Pi * intensity, 1e-9);
+  EXPECT_NEAR(set.Flux(0), pi * intensity, 1e-9);
 }
 
 // Large lights are left to the lines: a sign counts with all its lit cells.
@@ -295,8 +295,8 @@ TEST(Emitters, LargeLightsAreLeftToLines)
   EXPECT_FALSE(set.LeftToLines(2));
   EXPECT_TRUE(set.LeftToLines(3));
   EXPECT_EQ(set.Lights().size(), 1U);
-  EXPECT_NEAR(set.Flux(0), 5.0 * Pi, 1e-12);
-  EXPECT_NEAR(set.CellFlux(3, 0), 2.0 * Pi, 1e-12);
+  EXPECT_NEAR(set.Flux(0), 5.0 * pi, 1e-12);
+  EXPECT_NEAR(set.CellFlux(3, 0), 2.0 * pi, 1e-12);
 }
 
 // A cube's face takes a sixth of the sphere seen from its centre.
@@ -307,12 +307,12 @@ TEST(PolygonLight, SolidAngle)
   const Vec3 c(1, 1, 1);
   const Vec3 d(-1, 1, 1);
   const Vec3 point(0.0);
-  EXPECT_NEAR(SolidAngle(point, {a, b, c, d}), 4.0 * Pi / 6.0, 1e-12);
+  EXPECT_NEAR(SolidAngle(point, {a, b, c, d}), 4.0 * pi / 6.0, 1e-12);
   // Right at a large polygon: half of the sphere. In its plane beside it: nothing.
   const Vec3 wide(100, 100, 1);
   const Vec3 close(0.1, 0.2, 1 - 1e-9);
   const double near = SolidAngle(close, {wide * a, wide * b, wide * c, wide * d});
-  EXPECT_NEAR(near, 2.0 * Pi, 1e-6);
+  EXPECT_NEAR(near, 2.0 * pi, 1e-6);
   EXPECT_NEAR(SolidAngle({5, 5, 1}, a, b, c), 0.0, 1e-12);
 }
 
@@ -340,8 +340,8 @@ TEST(PolygonLight, ProjectedSolidAngle)
 {
   const std::array<Vec3, 4> square = {
     Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1)};
-  const double factor = 4.0 / (2.0 * Pi) * 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
-  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {0, 0, 1}, square), Pi * factor, 1e-12);
+  const double factor = 4.0 / (2.0 * pi) * 2.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
+  EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {0, 0, 1}, square), pi * factor, 1e-12);
   // A vertical plane sees the half of the square before it.
   const std::array<Vec3, 4> half = {Vec3(0, -1, 1), Vec3(0, 1, 1), Vec3(1, 1, 1), Vec3(1, -1, 1)};
   EXPECT_NEAR(ProjectedSolidAngle(Vec3(0.0), {1, 0, 0}, square),

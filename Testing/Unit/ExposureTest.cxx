@@ -9,15 +9,15 @@ namespace
 
 using namespace smokevis;
 
-constexpr double Edge = 2.0;
+constexpr double FloorEdge = 2.0;
 const Vec3 BoxLower(-0.5, -0.5, 0.0);
 const Vec3 BoxUpper(0.5, 0.5, 1.0);
 
 /// Adds a square around the box as one patch, its front upwards or downwards.
 void AddFloor(SurfaceMesh& mesh, bool upwards = true)
 {
-  const Vec3 along(Edge, 0.0, 0.0);
-  const Vec3 across(0.0, Edge, 0.0);
+  const Vec3 along(FloorEdge, 0.0, 0.0);
+  const Vec3 across(0.0, FloorEdge, 0.0);
   scenes::AddRectangle(
     mesh, -0.5 * (along + across), upwards ? along : across, upwards ? across : along, 1, 1, 0.5);
 }
@@ -29,8 +29,8 @@ void ExpectOfFloor(
   SceneDescription description;
   description.Surfaces = mesh;
   const Scene scene(std::move(description));
-  EXPECT_NEAR(scene.ExposedArea(floor, side), exposed, 0.01 * Edge * Edge);
-  EXPECT_NEAR(scene.EnclosedArea(floor, side), enclosed, 0.01 * Edge * Edge);
+  EXPECT_NEAR(scene.ExposedArea(floor, side), exposed, 0.01 * FloorEdge * FloorEdge);
+  EXPECT_NEAR(scene.EnclosedArea(floor, side), enclosed, 0.01 * FloorEdge * FloorEdge);
 }
 
 // Whichever of the floor and the bottom of the box that lies in it comes first in the model, and
@@ -55,7 +55,7 @@ TEST(Exposure, OfAFloorInTheCornerOfARoom)
 {
   SurfaceMesh mesh;
   AddFloor(mesh);
-  scenes::AddRoom(mesh, Vec3(-1.0, -1.0, 0.0), Vec3(1.0, 1.0, 2.0), Edge, 0.5);
+  scenes::AddRoom(mesh, Vec3(-1.0, -1.0, 0.0), Vec3(1.0, 1.0, 2.0), FloorEdge, 0.5);
   scenes::AddBlock(mesh, Vec3(0.0), Vec3(1.0, 1.0, 2.0), 0.3, 0.5);
   ExpectOfFloor(mesh, 0, 3.0, 1.0);
 }
@@ -66,7 +66,7 @@ TEST(Exposure, LinesWithinABoxMeetItsBacks)
 {
   SceneDescription description;
   SurfaceMesh& mesh = description.Surfaces;
-  scenes::AddRoom(mesh, Vec3(-1.0, -1.0, 0.0), Vec3(1.0, 1.0, 2.0), Edge, 0.5);
+  scenes::AddRoom(mesh, Vec3(-1.0, -1.0, 0.0), Vec3(1.0, 1.0, 2.0), FloorEdge, 0.5);
   const std::size_t room = mesh.CellReflectance.size();
   scenes::AddBlock(mesh, Vec3(0.0, -0.5, 0.0), Vec3(1.0, 0.5, 1.0), 0.3, 0.5);
   const Scene scene(std::move(description));

@@ -1,6 +1,6 @@
 // Boundary files: patches, frames, and what is refused.
 #include "BoundaryFile.h"
-#include "Errors.h"
+#include "ErrorText.h"
 #include "FormatsTestRun.h"
 
 #include <gmock/gmock.h>
@@ -40,17 +40,9 @@ std::string Sample(
   return records.Bytes();
 }
 
-std::string Problem(const std::string& path)
+std::string BoundaryError(const std::string& path)
 {
-  try
-  {
-    BoundaryFile(path, Mesh());
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
+  return test::ErrorText([&] { BoundaryFile(path, Mesh()); });
 }
 
 } // namespace
@@ -84,7 +76,7 @@ TEST(BoundaryFile, AnyCutLeavesTheFramesBeforeOrIsRefused)
     const std::string path = folder.Write("a.bf", whole.substr(0, size));
     if (size < whole.size() - frame)
     {
-      EXPECT_THAT(Problem(path), HasSubstr(path)) << size;
+      EXPECT_THAT(BoundaryError(path), HasSubstr(path)) << size;
       continue;
     }
     BoundaryFile file(path, Mesh());
@@ -97,7 +89,7 @@ TEST(BoundaryFile, RefusesWhatCannotBe)
 {
   const test::Folder folder("boundary-bad");
   const auto with = [&](const std::vector<int>& patch)
-  { return Problem(folder.Write("a.bf", Sample(false, patch))); };
+  { return BoundaryError(folder.Write("a.bf", Sample(false, patch))); };
   // Beyond the mesh, not flat, along no axis, backwards.
   for (const std::vector<int>& patch :
     std::vector<std::vector<int>>{{0, 3, 0, 1, 0, 0, 3, 0, 1}, {0, 2, 0, 1, 0, 1, 3, 0, 1},
@@ -109,8 +101,8 @@ TEST(BoundaryFile, RefusesWhatCannotBe)
   std::string many = Sample();
   const std::size_t count = 3 * 38 + 4;
   many.replace(count, 4, "\xff\xff\xff\x7f");
-  EXPECT_THAT(Problem(folder.Write("a.bf", many)), HasSubstr("claims 2147483647 patches"));
-  EXPECT_THAT(Problem(folder.Path("none.bf")), HasSubstr("cannot be opened"));
+  EXPECT_THAT(BoundaryError(folder.Write("a.bf", many)), HasSubstr("claims 2147483647 patches"));
+  EXPECT_THAT(BoundaryError(folder.Path("none.bf")), HasSubstr("cannot be opened"));
 }
 
 TEST(BoundaryFile, ReadsTheRoom)

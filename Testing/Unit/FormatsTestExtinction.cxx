@@ -1,4 +1,5 @@
 // Extinction from whatever a run wrote: which slices are taken, and what they are turned into.
+#include "ErrorText.h"
 #include "Errors.h"
 #include "ExtinctionSource.h"
 #include "FormatsTestRun.h"
@@ -61,25 +62,15 @@ protected:
     return test::ReadCells(source, 0, 0.0, {}).Values;
   }
 
-  std::string Problem()
+  std::string ReadError()
   {
-    try
-    {
-      this->Read();
-    }
-    catch (const Error& error)
-    {
-      return error.what();
-    }
-    return "none";
+    return test::ErrorText([&] { this->Read(); });
   }
 
   test::Folder folder_{"extinction"};
   test::Index index_;
   std::unique_ptr<SmvFile> run_;
 };
-
-} // namespace
 
 TEST_F(OneMeshRun, PrefersCellsOfExtinction)
 {
@@ -219,10 +210,10 @@ TEST_F(OneMeshRun, SolidsHoldNoSmokeWhateverTheFileSays)
 TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
 {
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, std::numeric_limits<float>::quiet_NaN());
-  EXPECT_THAT(this->Problem(), HasSubstr("k.sf"));
-  EXPECT_THAT(this->Problem(), HasSubstr("in cell (1, 0, 0) of mesh 'm' at 0 s"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("k.sf"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("in cell (1, 0, 0) of mesh 'm' at 0 s"));
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, -0.5F);
-  EXPECT_THAT(this->Problem(), HasSubstr("-0.5 1/m"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("-0.5 1/m"));
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, -1e-7F);
   EXPECT_THAT(this->Read(), ElementsAre(1.0F, 0.0F));
 }
@@ -230,18 +221,18 @@ TEST_F(OneMeshRun, RefusesWhatIsNoExtinction)
 TEST_F(OneMeshRun, TellsWhatToAskFdsFor)
 {
   index_.Slice(false, 1, {0, 2, 0, 1, 0, 0}, "t.sf", "TEMPERATURE");
-  EXPECT_THAT(this->Problem(), HasSubstr("2-D slice of TEMPERATURE"));
-  EXPECT_THAT(this->Problem(), HasSubstr("&SLCF"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("2-D slice of TEMPERATURE"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("&SLCF"));
 }
 
 TEST_F(OneMeshRun, NamesAMissingFileAndOneOfAnotherRun)
 {
   index_.Slice(true, 1, {0, 2, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
-  EXPECT_THAT(this->Problem(),
+  EXPECT_THAT(this->ReadError(),
     HasSubstr("gone.sf: the slice of SOOT EXTINCTION COEFFICIENT of mesh 'm' cannot be opened"));
   folder_.Write(
     "gone.sf", test::SliceBytes("A", {0, 1, 0, 1, 0, 1}, {{0.0F, std::vector<float>(8)}}));
-  EXPECT_THAT(this->Problem(), HasSubstr("is not the one"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("is not the one"));
 }
 
 TEST_F(OneMeshRun, ALostFileOfOneMeshIsAnError)
@@ -249,7 +240,7 @@ TEST_F(OneMeshRun, ALostFileOfOneMeshIsAnError)
   index_.Mesh("other", {1, 1, 1}, {2, 0, 0}, {3, 1, 1});
   this->AddCells("k.sf", "SOOT EXTINCTION COEFFICIENT", 1, 2);
   index_.Slice(true, 2, {0, 1, 0, 1, 0, 1}, "gone.sf", "SOOT EXTINCTION COEFFICIENT");
-  EXPECT_THAT(this->Problem(), HasSubstr("gone.sf"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("gone.sf"));
 }
 
 TEST_F(OneMeshRun, SaysThatTheLastFrameIsCutShort)
@@ -295,7 +286,7 @@ TEST_F(OneMeshRun, ARestartedRunsLaterWritingHolds)
 TEST_F(OneMeshRun, MultipliesAMassFractionByTheGasDensity)
 {
   this->AddCells("y.sf", "SOOT MASS FRACTION", 1e-4F, 2e-4F);
-  EXPECT_THAT(this->Problem(), HasSubstr("wrote no smoke in 3-D"));
+  EXPECT_THAT(this->ReadError(), HasSubstr("wrote no smoke in 3-D"));
   this->AddCells("r.sf", "DENSITY", 1.2F, 0.6F);
   EXPECT_THAT(this->Read(), ElementsAre(FloatNear(1.044F, 1e-5F), FloatNear(1.044F, 1e-5F)));
   ExtinctionSource source(*run_, {});
@@ -371,4 +362,5 @@ TEST_F(OneMeshRun, InterpolatesInTime)
   EXPECT_EQ(at(2.0, TimeInterpolation::Linear), std::make_pair(3.0F, 2.0));
 }
 
+} // namespace
 } // namespace smokevis

@@ -1,6 +1,6 @@
 // Complex geometry. FDS writes it only where it was built with more libraries than the runs at
 // hand, so these files are built from the format.
-#include "Errors.h"
+#include "ErrorText.h"
 #include "FormatsTestRun.h"
 #include "GeomFile.h"
 
@@ -85,17 +85,9 @@ std::pair<double, double> Measure(const GeomTriangles& solid)
   return {area, volume};
 }
 
-std::string Problem(const std::string& path)
+std::string GeomError(const std::string& path)
 {
-  try
-  {
-    GeomFile(path, false).Read(0.0);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
+  return test::ErrorText([&] { GeomFile(path, false).Read(0.0); });
 }
 
 } // namespace
@@ -138,28 +130,28 @@ TEST(GeomFile, MovesInTime)
 TEST(GeomFile, NamesWhatIsWrong)
 {
   test::Folder folder("geomwrong");
-  EXPECT_THAT(Problem(folder.Path("none.ge")), HasSubstr("cannot be opened"));
-  EXPECT_THAT(Problem(folder.Write("a.ge", "a text")), HasSubstr("first record"));
+  EXPECT_THAT(GeomError(folder.Path("none.ge")), HasSubstr("cannot be opened"));
+  EXPECT_THAT(GeomError(folder.Write("a.ge", "a text")), HasSubstr("first record"));
   EXPECT_THAT(
-    Problem(folder.Write("a.ge", Header(false, true, 1).Bytes())), HasSubstr("version 1"));
+    GeomError(folder.Write("a.ge", Header(false, true, 1).Bytes())), HasSubstr("version 1"));
   EXPECT_THAT(
-    Problem(folder.Write("a.ge", Header(false, true).Bytes())), HasSubstr("no whole frame"));
+    GeomError(folder.Write("a.ge", Header(false, true).Bytes())), HasSubstr("no whole frame"));
   test::Records corner = Header(false, true);
   Cube wrong(1.0F);
   wrong.Triangles[4] = 9;
   AddFrame(corner, 0.0F, wrong, false, 0);
-  EXPECT_THAT(Problem(folder.Write("a.ge", corner.Bytes())),
+  EXPECT_THAT(GeomError(folder.Write("a.ge", corner.Bytes())),
     HasSubstr("triangle 2 of the geometry has point 9 of 8"));
   test::Records nan = Header(false, true);
   Cube lost(1.0F);
   lost.Points[5] = std::nanf("");
   AddFrame(nan, 0.0F, lost, false, 0);
-  EXPECT_THAT(
-    Problem(folder.Write("a.ge", nan.Bytes())), HasSubstr("point 2 of the geometry is not finite"));
+  EXPECT_THAT(GeomError(folder.Write("a.ge", nan.Bytes())),
+    HasSubstr("point 2 of the geometry is not finite"));
   // Counts that no file of this size can hold.
   test::Records huge = Header(false, true);
   huge.Add(std::vector<float>{0.0F}).Add(std::vector<int>{1000000000, 2000000000, 1000000000});
-  EXPECT_THAT(Problem(folder.Write("a.ge", huge.Bytes())), HasSubstr("cut short or damaged"));
+  EXPECT_THAT(GeomError(folder.Write("a.ge", huge.Bytes())), HasSubstr("cut short or damaged"));
 }
 
 } // namespace smokevis

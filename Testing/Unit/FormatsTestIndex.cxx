@@ -1,4 +1,5 @@
 // The .smv index: what it says, and what it says when it is broken.
+#include "ErrorText.h"
 #include "Errors.h"
 #include "FormatsTestRun.h"
 #include "SmvFile.h"
@@ -18,17 +19,9 @@ namespace smokevis
 namespace
 {
 
-std::string Problem(const std::string& path)
+std::string IndexError(const std::string& path)
 {
-  try
-  {
-    SmvFile index(path);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
+  return test::ErrorText([&] { SmvFile index(path); });
 }
 
 test::Index OneMesh()
@@ -171,35 +164,35 @@ TEST(SmvFile, AnIndexCutShortKeepsWhatIsWhole)
 TEST(SmvFile, NamesWhatIsWrong)
 {
   test::Folder folder("wrong");
-  EXPECT_THAT(Problem(folder.Path("none.smv")), HasSubstr("cannot be opened"));
-  EXPECT_THAT(Problem(folder.Path("")), HasSubstr("cannot be opened"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "")), HasSubstr("is empty"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "hello\nworld\n")), HasSubstr("names no mesh"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "GRID a\n 2 2 2\n")), HasSubstr("no TRNX"));
+  EXPECT_THAT(IndexError(folder.Path("none.smv")), HasSubstr("cannot be opened"));
+  EXPECT_THAT(IndexError(folder.Path("")), HasSubstr("cannot be opened"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "")), HasSubstr("is empty"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "hello\nworld\n")), HasSubstr("names no mesh"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "GRID a\n 2 2 2\n")), HasSubstr("no TRNX"));
   EXPECT_THAT(
-    Problem(folder.Write("a.smv", "GRID a\n 2 0 2\n")), HasSubstr("positive cell counts"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "OBST\n 0\n")), HasSubstr("before any mesh"));
-  EXPECT_THAT(
-    Problem(folder.Write("a.smv", "GRID a\n 2000000000 2000000000 2\n")), HasSubstr("more cells"));
+    IndexError(folder.Write("a.smv", "GRID a\n 2 0 2\n")), HasSubstr("positive cell counts"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "OBST\n 0\n")), HasSubstr("before any mesh"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "GRID a\n 2000000000 2000000000 2\n")),
+    HasSubstr("more cells"));
   // Counts that no file of this size can hold.
-  EXPECT_THAT(Problem(folder.Write("a.smv", "GRID a\n 2000000000 1 1\nTRNX\n 0\n 0 0.0\n")),
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "GRID a\n 2000000000 1 1\nTRNX\n 0\n 0 0.0\n")),
     HasSubstr("ends inside the entry TRNX"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "GRID a\n 1 1 1\nOBST\n 2000000000\n")),
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "GRID a\n 1 1 1\nOBST\n 2000000000\n")),
     HasSubstr("ends inside the entry OBST"));
   EXPECT_THAT(
-    Problem(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n -5\n")), HasSubstr("not a count"));
-  EXPECT_THAT(Problem(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n 0\n 0 1.0\n 1 1.0\n\n")),
+    IndexError(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n -5\n")), HasSubstr("not a count"));
+  EXPECT_THAT(IndexError(folder.Write("a.smv", "GRID a\n 1 1 1\nTRNX\n 0\n 0 1.0\n 1 1.0\n\n")),
     HasSubstr("do not increase"));
   test::Index twice = OneMesh();
-  EXPECT_THAT(Problem(folder.Write("a.smv", twice.Text("TRNX\n 0\n 0 0.\n").Bytes())),
+  EXPECT_THAT(IndexError(folder.Write("a.smv", twice.Text("TRNX\n 0\n 0 0.\n").Bytes())),
     HasSubstr("ends inside the entry TRNX"));
   test::Index again = OneMesh();
-  EXPECT_THAT(Problem(folder.Write(
+  EXPECT_THAT(IndexError(folder.Write(
                 "a.smv", again.Text("TRNX\n 0\n 0 0.\n 1 1.\n 2 2.\n 3 3.\n 4 4.\n").Bytes())),
     HasSubstr("node coordinates twice"));
 
   const auto with = [&](test::Index& index)
-  { return Problem(folder.Write("a.smv", index.Bytes())); };
+  { return IndexError(folder.Write("a.smv", index.Bytes())); };
   test::Index outside = OneMesh();
   EXPECT_THAT(with(outside.Slice(true, 1, {0, 5, 0, 3, 0, 2}, "a.sf", "X")),
     HasSubstr("index range outside of mesh 'room one'"));
@@ -308,12 +301,12 @@ TEST(SmvFile, AnyCutOrFlippedByteIsReadOrRefused)
     OneMesh().Slice(true, 1, {0, 4, 0, 3, 0, 2}, "a.sf", "SOOT DENSITY").Bytes();
   for (std::size_t i = 0; i < text.size(); i += 7)
   {
-    Problem(folder.Write("cut.smv", text.substr(0, i)));
+    IndexError(folder.Write("cut.smv", text.substr(0, i)));
     for (const char c : {'9', '-', '\n'})
     {
       std::string flipped = text;
       flipped[i] = c;
-      Problem(folder.Write("flipped.smv", flipped));
+      IndexError(folder.Write("flipped.smv", flipped));
     }
   }
 }

@@ -1,5 +1,5 @@
 // Slice files: frames by seeking, byte order, ghost layers, and files cut short or damaged.
-#include "Errors.h"
+#include "ErrorText.h"
 #include "FormatsTestRun.h"
 #include "SliceFile.h"
 
@@ -31,19 +31,15 @@ std::string Frames(const std::vector<int>& range, int count, bool swapped = fals
   return test::SliceBytes("SOOT DENSITY", range, frames, swapped);
 }
 
-std::string Problem(const std::string& path)
+std::string SliceError(const std::string& path)
 {
-  try
-  {
-    SliceFile slice(path, false);
-    std::vector<float> values;
-    slice.ReadFrame(slice.FrameTimes().size() - 1, values);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
+  return test::ErrorText(
+    [&]
+    {
+      SliceFile slice(path, false);
+      std::vector<float> values;
+      slice.ReadFrame(slice.FrameTimes().size() - 1, values);
+    });
 }
 
 constexpr int HeaderBytes = 3 * 38 + 32;
@@ -103,28 +99,30 @@ TEST(SliceFile, NamesWhatIsWrong)
 {
   test::Folder folder("wrong");
   const std::string whole = Frames({0, 1, 0, 1, 0, 1}, 2);
-  EXPECT_THAT(Problem(folder.Path("none.sf")), HasSubstr("cannot be opened"));
-  EXPECT_THAT(Problem(folder.Write("a.sf", "")), HasSubstr("is empty"));
-  EXPECT_THAT(Problem(folder.Write("a.sf", "not a slice file at all")), HasSubstr("first record"));
-  EXPECT_THAT(Problem(folder.Write("a.sf", whole.substr(0, 60))), HasSubstr("byte 38"));
+  EXPECT_THAT(SliceError(folder.Path("none.sf")), HasSubstr("cannot be opened"));
+  EXPECT_THAT(SliceError(folder.Write("a.sf", "")), HasSubstr("is empty"));
   EXPECT_THAT(
-    Problem(folder.Write("a.sf", whole.substr(0, HeaderBytes))), HasSubstr("no whole frame"));
+    SliceError(folder.Write("a.sf", "not a slice file at all")), HasSubstr("first record"));
+  EXPECT_THAT(SliceError(folder.Write("a.sf", whole.substr(0, 60))), HasSubstr("byte 38"));
+  EXPECT_THAT(
+    SliceError(folder.Write("a.sf", whole.substr(0, HeaderBytes))), HasSubstr("no whole frame"));
 
   std::string marker = whole;
   marker[HeaderBytes] = 5;
-  EXPECT_THAT(Problem(folder.Write("a.sf", marker)), HasSubstr("frame 1 at byte 146 is damaged"));
+  EXPECT_THAT(
+    SliceError(folder.Write("a.sf", marker)), HasSubstr("frame 1 at byte 146 is damaged"));
   // Ranges that would make billions of values must not be believed.
   const auto ranged = [](const std::vector<int>& range)
   { return test::Records().AddLabel("A").AddLabel("B").AddLabel("C").Add(range).Bytes(); };
   constexpr int most = std::numeric_limits<int>::max();
   EXPECT_THAT(
-    Problem(folder.Write("a.sf", ranged({0, most, 0, most, 0, most}))), HasSubstr("too large"));
-  EXPECT_THAT(
-    Problem(folder.Write("a.sf", ranged({0, 100000000, 0, 0, 0, 0}))), HasSubstr("no whole frame"));
-  EXPECT_THAT(Problem(folder.Write("a.sf", ranged({4, 3, 0, 1, 0, 1}))), HasSubstr("reversed"));
+    SliceError(folder.Write("a.sf", ranged({0, most, 0, most, 0, most}))), HasSubstr("too large"));
+  EXPECT_THAT(SliceError(folder.Write("a.sf", ranged({0, 100000000, 0, 0, 0, 0}))),
+    HasSubstr("no whole frame"));
+  EXPECT_THAT(SliceError(folder.Write("a.sf", ranged({4, 3, 0, 1, 0, 1}))), HasSubstr("reversed"));
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(
-    Problem(folder.Write("a.sf", test::SliceBytes("A", {0, 0, 0, 0, 0, 0}, {{nan, {1}}}))),
+    SliceError(folder.Write("a.sf", test::SliceBytes("A", {0, 0, 0, 0, 0, 0}, {{nan, {1}}}))),
     HasSubstr("time of frame 1"));
 }
 
@@ -134,12 +132,12 @@ TEST(SliceFile, AnyCutOrFlippedByteIsReadOrRefused)
   const std::string whole = Frames({0, 1, 0, 1, 0, 1}, 2);
   for (std::size_t i = 0; i < whole.size(); i += 3)
   {
-    Problem(folder.Write("a.sf", whole.substr(0, i)));
+    SliceError(folder.Write("a.sf", whole.substr(0, i)));
     for (const char c : {'\xff', '\x7f', '\0'})
     {
       std::string flipped = whole;
       flipped[i] = c;
-      Problem(folder.Write("a.sf", flipped));
+      SliceError(folder.Write("a.sf", flipped));
     }
   }
 }

@@ -1,4 +1,5 @@
 // 8-bit smoke (.s3d, .s3dd) and Plot3D (.q), and how their nodes become extinction in cells.
+#include "ErrorText.h"
 #include "Errors.h"
 #include "ExtinctionSource.h"
 #include "FormatsTestRun.h"
@@ -40,19 +41,6 @@ std::string Smoke(int version, const std::vector<Bytes>& frames, bool swapped = 
 
 // A run of ten times 127, then 0 and 254.
 const Bytes Coded{255, 127, 10, 0, 254};
-
-template <class F> std::string Problem(F&& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
-}
 
 } // namespace
 
@@ -119,7 +107,7 @@ TEST(Smoke3DFile, NamesWhatIsWrong)
   const auto read = [&](const std::string& bytes)
   {
     const std::string path = folder.Write("a.s3d", bytes);
-    return Problem(
+    return test::ErrorText(
       [&]
       {
         Smoke3DFile smoke(path, Nodes, 0.5);
@@ -138,7 +126,7 @@ TEST(Smoke3DFile, NamesWhatIsWrong)
   const std::string cut = Smoke(0, {Coded});
   EXPECT_THAT(read(cut.substr(0, cut.size() - 1)), HasSubstr("frame 1 at byte 40 is cut short"));
   const std::string path = folder.Write("a.s3d", cut);
-  EXPECT_THAT(Problem(
+  EXPECT_THAT(test::ErrorText(
                 [&] {
                   Smoke3DFile smoke(path, {4, 2, 2}, 0.5);
                 }),
@@ -184,7 +172,7 @@ TEST(Smoke3DFile, AnyCutOrFlippedByteIsReadOrRefused)
       for (const std::string& bytes : {flipped, whole.substr(0, i)})
       {
         const std::string path = folder.Write("a.s3d", bytes);
-        Problem(
+        test::ErrorText(
           [&]
           {
             Smoke3DFile smoke(path, Nodes, 0.5);
@@ -216,15 +204,15 @@ TEST(Plot3DSeries, ReadsOneQuantityOfOneTime)
     series.ReadFrame(0, read);
     EXPECT_EQ(read, std::vector<float>(values.begin() + 36, values.begin() + 48));
     Plot3DSeries other({{600.0, path}}, 0, {4, 2, 2});
-    EXPECT_THAT(Problem([&] { other.ReadFrame(0, read); }), HasSubstr("number of nodes"));
+    EXPECT_THAT(test::ErrorText([&] { other.ReadFrame(0, read); }), HasSubstr("number of nodes"));
     folder.Write("a.q", records.Bytes().substr(0, records.Bytes().size() - 8));
-    EXPECT_THAT(Problem([&] { series.ReadFrame(0, read); }), HasSubstr("five quantities"));
+    EXPECT_THAT(test::ErrorText([&] { series.ReadFrame(0, read); }), HasSubstr("five quantities"));
   }
-  EXPECT_THAT(Problem(
+  EXPECT_THAT(test::ErrorText(
                 [&] {
                   Plot3DSeries none({{0.0, folder.Path("gone.q")}}, 0, Nodes);
                 }),
-    HasSubstr("none"));
+    HasSubstr("none of the run's Plot3D files"));
 }
 
 // One mesh of 2 x 1 x 1 cells of 0.5 m with 8-bit smoke, Plot3D or both.

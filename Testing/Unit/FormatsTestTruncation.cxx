@@ -20,7 +20,7 @@ namespace smokevis
 namespace
 {
 
-const std::string Room = std::string(SMOKEVIS_DATA_DIR) + "/Room/fds/";
+const std::string RoomFolder = std::string(SMOKEVIS_DATA_DIR) + "/Room/fds/";
 
 std::string BytesOf(const std::string& path)
 {
@@ -35,12 +35,12 @@ using Open = std::function<std::unique_ptr<FrameFile>(const std::string& path)>;
 void CutAnywhere(const std::string& name, std::size_t step, const Open& open)
 {
   test::Folder folder("cut");
-  const std::string bytes = BytesOf(Room + name);
+  const std::string bytes = BytesOf(RoomFolder + name);
   ASSERT_FALSE(bytes.empty());
   const std::string copy = folder.Write(name, bytes);
-  if (std::filesystem::exists(Room + name + ".sz"))
+  if (std::filesystem::exists(RoomFolder + name + ".sz"))
   {
-    folder.Write(name + ".sz", BytesOf(Room + name + ".sz"));
+    folder.Write(name + ".sz", BytesOf(RoomFolder + name + ".sz"));
   }
   std::vector<std::vector<float>> frames;
   const std::unique_ptr<FrameFile> whole = open(copy);
@@ -119,7 +119,7 @@ TEST(Truncation, OfPlot3D)
 {
   // One frame a file: all of it or an error.
   test::Folder folder("cutq");
-  const std::string bytes = BytesOf(Room + "room_2_28p01.q");
+  const std::string bytes = BytesOf(RoomFolder + "room_2_28p01.q");
   const auto read = [&](const std::string& part)
   {
     Plot3DSeries series({{0.0, folder.Write("a.q", part)}}, 3, {17, 13, 13}, "TEST QUANTITY");
@@ -145,9 +145,9 @@ TEST(Truncation, OfPlot3D)
 TEST(Truncation, OfTheGreatestDensities)
 {
   test::Folder folder("cutsz");
-  const std::string smoke = folder.Write("a.s3d", BytesOf(Room + "room_2_1.s3d"));
-  folder.Write("a.s3dd", BytesOf(Room + "room_2_1.s3dd"));
-  const std::string text = BytesOf(Room + "room_2_1.s3d.sz");
+  const std::string smoke = folder.Write("a.s3d", BytesOf(RoomFolder + "room_2_1.s3d"));
+  folder.Write("a.s3dd", BytesOf(RoomFolder + "room_2_1.s3dd"));
+  const std::string text = BytesOf(RoomFolder + "room_2_1.s3d.sz");
   for (std::size_t size = 0; size < text.size(); ++size)
   {
     folder.Write("a.s3d.sz", text.substr(0, size));
@@ -169,7 +169,7 @@ TEST(Truncation, OfTheGreatestDensities)
 TEST(Truncation, OfTheIndex)
 {
   test::Folder folder("cutsmv");
-  const std::string text = BytesOf(Room + "room.smv");
+  const std::string text = BytesOf(RoomFolder + "room.smv");
   const SmvFile whole(folder.Write("whole.smv", text));
   std::size_t slices = 0;
   // The part before the first slice is refused, what follows is kept.

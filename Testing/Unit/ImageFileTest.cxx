@@ -43,8 +43,6 @@ protected:
   std::filesystem::path Folder;
 };
 
-} // namespace
-
 TEST_F(ImageFileTest, BringsBackWhatWasWritten)
 {
   const ImageFile written = Example();
@@ -99,4 +97,5 @@ TEST_F(ImageFileTest, ReportsDamagedFiles)
   }
 }
 
+} // namespace
 } // namespace smokevis

@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<double> Angles(double last, int intervals)
 {
@@ -32,7 +32,7 @@ std::vector<double> Fill(
   {
     for (const double g : polar)
     {
-      values.push_back(intensity(g * Pi / 180.0, c * Pi / 180.0));
+      values.push_back(intensity(g * pi / 180.0, c * pi / 180.0));
     }
   }
   return values;
@@ -44,14 +44,14 @@ std::vector<double> Fill(
 TEST(IntensityTable, FluxOfLinearIntensities)
 {
   const std::vector<double> polar = {0, 20, 30, 90};
-  EXPECT_NEAR(IntensityTable::Flux(polar, {0.0}, {3, 3, 3, 3}), 6.0 * Pi, 1e-12);
-  const auto falling = [](double g, double) { return 1.0 - g / (0.5 * Pi); };
+  EXPECT_NEAR(IntensityTable::Flux(polar, {0.0}, {3, 3, 3, 3}), 6.0 * pi, 1e-12);
+  const auto falling = [](double g, double) { return 1.0 - g / (0.5 * pi); };
   const auto around = Angles(360, 3);
   EXPECT_NEAR(IntensityTable::Flux(polar, around, Fill(polar, around, falling)),
-    2.0 * Pi * (1.0 - 2.0 / Pi), 1e-12);
+    2.0 * pi * (1.0 - 2.0 / pi), 1e-12);
   // Linear in the azimuth: the mean of both ends.
   const std::vector<double> uneven = {0, 90, 360};
-  EXPECT_NEAR(IntensityTable::Flux({0, 90}, uneven, {0, 0, 1, 1, 0, 0}), Pi, 1e-12);
+  EXPECT_NEAR(IntensityTable::Flux({0, 90}, uneven, {0, 0, 1, 1, 0, 0}), pi, 1e-12);
 }
 
 // The scaled table of a Lambertian plate is the cosine; 1 degree apart, chords miss the arc by
@@ -76,11 +76,11 @@ TEST(IntensityTable, BilinearInBothAngles)
   const std::vector<double> azimuth = {0, 90, 180, 270, 360};
   const std::vector<double> values = {1, 2, 3, 1, 4, 5, 1, 6, 7, 1, 8, 9, 1, 2, 3};
   const IntensityTable table(polar, azimuth, values);
-  const double scale = Pi / IntensityTable::Flux(polar, azimuth, values);
+  const double scale = pi / IntensityTable::Flux(polar, azimuth, values);
   const auto at = [&](double g, double c)
   {
-    g *= Pi / 180.0;
-    c *= Pi / 180.0;
+    g *= pi / 180.0;
+    c *= pi / 180.0;
     return table.Value(std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), std::cos(g)) / scale;
   };
   EXPECT_NEAR(at(30, 45), 3.0, 1e-9);
@@ -107,14 +107,14 @@ TEST(EmissionLaw, TableInItsFrame)
   const std::vector<double> azimuth = {0, 90, 180, 270, 360};
   const std::vector<double> values = {1, 1, 1, 4, 1, 1, 1, 1, 1, 1};
   const IntensityTable table({0, 90}, azimuth, values);
-  const double scale = Pi / IntensityTable::Flux({0, 90}, azimuth, values);
+  const double scale = pi / IntensityTable::Flux({0, 90}, azimuth, values);
   const EmissionLaw law(table, {1, 0, 0.2}, {0, 0, -1});
   const double part = std::sqrt(0.5);
   EXPECT_NEAR(law.Relative({0, part, -part}, part) * part, 2.5 * scale, 1e-9);
   EXPECT_NEAR(law.Relative({0, -part, -part}, part) * part, 1.0 * scale, 1e-9);
   EXPECT_NEAR(law.Relative({part, 0, -part}, part) * part, 1.0 * scale, 1e-9);
   EXPECT_EQ(law.Relative({1, 0, 0}, 0.0), 0.0);
-  EXPECT_NEAR(law.UnitFlux(), Pi, 1e-12);
+  EXPECT_NEAR(law.UnitFlux(), pi, 1e-12);
   EXPECT_THROW(EmissionLaw(table, {0, 0, 2}, {0, 0, -1}), Error);
 }
 

@@ -1,5 +1,6 @@
 // The lens, the response curve and the photograph against the laws and standards that they follow.
 #include "Camera.h"
+#include "ErrorText.h"
 #include "Errors.h"
 #include "Photograph.h"
 #include "ThinLens.h"
@@ -16,24 +17,16 @@ namespace smokevis
 namespace
 {
 
-std::string Written(const std::string& text)
+std::string WrittenCurve(const std::string& text)
 {
   const std::string name = testing::TempDir() + "/response.csv";
   std::ofstream(name) << text;
   return name;
 }
 
-std::string MessageFor(const std::string& text)
+std::string CurveError(const std::string& text)
 {
-  try
-  {
-    ResponseCurve::Read(Written(text));
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return test::ErrorText([&] { ResponseCurve::Read(WrittenCurve(text)); });
 }
 
 } // namespace
@@ -118,7 +111,7 @@ TEST(ResponseCurve, IsFilmLikeByDefault)
 TEST(ResponseCurve, ReadsATable)
 {
   const ResponseCurve curve =
-    ResponseCurve::Read(Written("# a camera\nexposure, pixel_value\n0,0\n0.01,20\n\n1,220\n"));
+    ResponseCurve::Read(WrittenCurve("# a camera\nexposure, pixel_value\n0,0\n0.01,20\n\n1,220\n"));
   EXPECT_NEAR(curve.Value(0.005), 10.0, 1e-12);
   EXPECT_NEAR(curve.Value(0.1), 120.0, 1e-12);
   EXPECT_NEAR(curve.Value(7.0), 220.0, 1e-12);
@@ -127,15 +120,15 @@ TEST(ResponseCurve, ReadsATable)
 TEST(ResponseCurve, SaysWhatIsWrongAndWhere)
 {
   EXPECT_THROW(ResponseCurve::Read("no such file.csv"), Error);
-  EXPECT_NE(MessageFor("a,b\n").find("line 1: the header"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\n0,0,1\n").find("line 2"), std::string::npos);
+  EXPECT_NE(CurveError("a,b\n").find("line 1: the header"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\n0,0,1\n").find("line 2"), std::string::npos);
   EXPECT_NE(
-    MessageFor("exposure,pixel_value\n0,x\n").find("'x' is not a number"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\n0,0\n1,256\n").find("line 3"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\n0,9\n1,8\n").find("falls"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\n0,9\n").find("fewer than two"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\nnan,9\n").find("not a number"), std::string::npos);
-  EXPECT_NE(MessageFor("exposure,pixel_value\r0,0\r1,300\r").find("line 3"), std::string::npos);
+    CurveError("exposure,pixel_value\n0,x\n").find("'x' is not a number"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\n0,0\n1,256\n").find("line 3"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\n0,9\n1,8\n").find("falls"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\n0,9\n").find("fewer than two"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\nnan,9\n").find("not a number"), std::string::npos);
+  EXPECT_NE(CurveError("exposure,pixel_value\r0,0\r1,300\r").find("line 3"), std::string::npos);
 }
 
 TEST(Photograph, IsExposedByTheStandards)
@@ -187,7 +180,7 @@ TEST(Photograph, HasTheNoiseThatWasAskedFor)
 {
   // A linear response, so that the noise of the values is that of the exposure.
   const ResponseCurve linear =
-    ResponseCurve::Read(Written("exposure,pixel_value\n0,0\n2.55,255\n"));
+    ResponseCurve::Read(WrittenCurve("exposure,pixel_value\n0,0\n2.55,255\n"));
   ExposureSettings settings;
   settings.FNumber = 1.0;
   settings.Time = 1.0;

@@ -1,6 +1,7 @@
 // The walk of rays through rectilinear smoke, cell by cell.
 #include "Medium.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -205,6 +206,33 @@ TEST(Medium, EmissionOfOneGridOnly)
   EXPECT_TRUE(medium.Emits());
   EXPECT_FLOAT_EQ(medium.EmittedLuminance(0), 5.0F);
   EXPECT_FLOAT_EQ(medium.EmittedLuminance(1), 0.0F);
+}
+
+TEST(Medium, BlocksHoldEveryCellOnce)
+{
+  SmokeGrid grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int node = 0; node <= 9 + axis; ++node)
+    {
+      grid.Nodes[axis].push_back(node);
+    }
+  }
+  grid.Extinction.assign(9 * 10 * 11, 1.0F);
+  const Medium medium({grid});
+  std::vector<int> met(medium.Cells(), 0);
+  for (const Medium::Block& block : medium.Blocks(8))
+  {
+    std::size_t number = 0;
+    block.ForEachCell(
+      [&](const std::array<int, 3>& place)
+      {
+        ++met[medium.Cell(block, place)];
+        EXPECT_EQ(block.Number(place), number++);
+      });
+    EXPECT_EQ(block.Cells(), number);
+  }
+  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
 }
 
 } // namespace

@@ -9,7 +9,7 @@ namespace
 
 using namespace smokevis;
 
-constexpr double Edge = 0.1;
+constexpr double SquareEdge = 0.1;
 
 /// Squares in the plane z = 0, each with corners of its own, in a row along x.
 /// @param places of the squares, in their edges, and the reflectance of each
@@ -23,7 +23,7 @@ Scene Row(const std::vector<std::pair<int, double>>& squares)
     const auto cell = static_cast<std::uint32_t>(mesh.CellReflectance.size());
     for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
     {
-      mesh.Points.push_back(Edge * corner + Edge * Vec3(place, 0, 0));
+      mesh.Points.push_back(SquareEdge * corner + SquareEdge * Vec3(place, 0, 0));
     }
     mesh.Triangles.push_back({first, first + 1, first + 2});
     mesh.Triangles.push_back({first, first + 2, first + 3});

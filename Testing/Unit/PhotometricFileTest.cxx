@@ -1,6 +1,6 @@
 // IES files: symmetries, units, halves, errors by line, and files that break off.
 #include "PhotometricFile.h"
-#include "Errors.h"
+#include "ErrorText.h"
 #include "IntensityTable.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 const std::string Header = "IESNA:LM-63-2002\r\n"
                            "[TEST] written for this test\r\n"
@@ -58,17 +58,9 @@ PhotometricFile Parse(const std::string& text)
   return PhotometricFile::Parse(text, "the file");
 }
 
-std::string Message(const std::string& text)
+std::string ParseError(const std::string& text)
 {
-  try
-  {
-    Parse(text);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return test::ErrorText([&] { Parse(text); });
 }
 
 TEST(PhotometricFile, OnePlane)
@@ -80,7 +72,7 @@ TEST(PhotometricFile, OnePlane)
   EXPECT_DOUBLE_EQ(file.Width, 0.6);
   EXPECT_DOUBLE_EQ(file.Length, 1.2);
   // 300 + 3 g degrees: 2 pi times the integral of that times the sine, 300 + 540 / pi.
-  EXPECT_NEAR(file.Flux(), 2.0 * Pi * (300.0 + 3.0 * 180.0 / Pi), 1e-9);
+  EXPECT_NEAR(file.Flux(), 2.0 * pi * (300.0 + 3.0 * 180.0 / pi), 1e-9);
 }
 
 // Planes that symmetry leaves out are equal to those that it maps them to.
@@ -148,7 +140,7 @@ TEST(PhotometricFile, UnitsShapesAndFactors)
   for (const char* const disc : {"1 2 -0.2 -0.2 0", "1 2 -0.2 0 0"})
   {
     const PhotometricFile round = Parse(File({0, 90}, {0}, "1 1000 1", disc));
-    EXPECT_NEAR(round.Width * round.Length, Pi * 0.01, 1e-12);
+    EXPECT_NEAR(round.Width * round.Length, pi * 0.01, 1e-12);
   }
   std::string tilted = File({0, 90}, {0});
   tilted.replace(tilted.find("TILT=NONE\r\n"), 11, "TILT=INCLUDE\r\n1\r\n2\r\n0 90\r\n0.9 0.5\r\n");
@@ -165,12 +157,12 @@ TEST(PhotometricFile, ErrorsNameTheLine)
   {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return Message(text);
+    return ParseError(text);
   };
   const auto holds = [](const std::string& message, const std::string& part)
   { EXPECT_NE(message.find(part), std::string::npos) << message; };
-  EXPECT_EQ(Message(good), "no error");
-  holds(Message(""), "no line TILT=");
+  EXPECT_EQ(ParseError(good), "no error");
+  holds(ParseError(""), "no line TILT=");
   holds(with("TILT=NONE", "TILT=lamp.tlt"), "names another file");
   holds(with("1 1000 1 2", "1 1000 x 2"), "line 5: 'x' stands for the candela multiplier");
   holds(with("1 1000 1 2", "0 1000 1 2"), "line 5: the number of lamps is 0");
@@ -186,7 +178,7 @@ TEST(PhotometricFile, ErrorsNameTheLine)
   for (const std::vector<double>& planes :
     {std::vector<double>{0, 90, 270}, {0, 45, 200}, {0, 270}, {0, 90, 180, 300}, {90, 180, 360}})
   {
-    holds(Message(File({0, 90}, planes)), "line 8: the horizontal angles go from");
+    holds(ParseError(File({0, 90}, planes)), "line 8: the horizontal angles go from");
   }
   holds(with("100 190", "100 -190"), "line 9: an intensity is negative");
   holds(with("100 190", "100 190 5"), "line 9: there is more in the file");
@@ -205,11 +197,12 @@ TEST(PhotometricFile, LineEnds)
     {
       text += windows[i] == '\n' ? end : windows[i] == '\r' ? "" : std::string(1, windows[i]);
     }
-    EXPECT_EQ(Message(text), "no error");
+    EXPECT_EQ(ParseError(text), "no error");
     EXPECT_EQ(Parse(text).Candela, Parse(windows).Candela);
     text.replace(text.find("1 1000"), 1, "x");
     const std::string line = end == "\n\r\n" ? "line 9" : "line 5";
-    EXPECT_NE(Message(text).find(line + ": 'x' stands for"), std::string::npos) << Message(text);
+    EXPECT_NE(ParseError(text).find(line + ": 'x' stands for"), std::string::npos)
+      << ParseError(text);
   }
 }
 
@@ -220,7 +213,7 @@ TEST(PhotometricFile, Truncation)
   const std::string good = File({0, 30, 60, 90}, {0, 45, 90});
   for (std::size_t length = 0; length + 8 < good.size(); ++length)
   {
-    EXPECT_NE(Message(good.substr(0, length)), "no error") << length;
+    EXPECT_NE(ParseError(good.substr(0, length)), "no error") << length;
   }
   // Bytes that are wrong do not do harm either.
   for (std::size_t place = 0; place < good.size(); ++place)
@@ -229,7 +222,7 @@ TEST(PhotometricFile, Truncation)
     {
       std::string text = good;
       text[place] = byte;
-      Message(text);
+      ParseError(text);
     }
   }
 }

@@ -1,5 +1,6 @@
 // Text files as people save them.
 #include "TextLines.h"
+#include "ErrorText.h"
 #include "Errors.h"
 
 #include <fstream>
@@ -11,24 +12,16 @@ namespace smokevis
 namespace
 {
 
-std::string Written(const std::string& bytes)
+std::string WrittenTable(const std::string& bytes)
 {
   const std::string name = testing::TempDir() + "/lines.txt";
   std::ofstream(name, std::ios::binary) << bytes;
   return name;
 }
 
-std::string MessageFor(const std::string& bytes)
+std::string TableError(const std::string& bytes)
 {
-  try
-  {
-    ReadTableLines("the table", Written(bytes), "Give one");
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return test::ErrorText([&] { ReadTableLines("the table", WrittenTable(bytes), "Give one"); });
 }
 
 } // namespace
@@ -46,7 +39,7 @@ TEST(TextLines, EndsLinesAsAnySystemDoes)
 TEST(TextLines, NumbersTheLinesThatCount)
 {
   const std::vector<TextLine> lines =
-    ReadTableLines("it", Written("\xEF\xBB\xBFone\n# two\n \t\n  four \xC3\xB6 \n"), "");
+    ReadTableLines("it", WrittenTable("\xEF\xBB\xBFone\n# two\n \t\n  four \xC3\xB6 \n"), "");
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].Number, 1);
   EXPECT_EQ(lines[0].Text, "one");
@@ -56,14 +49,14 @@ TEST(TextLines, NumbersTheLinesThatCount)
 
 TEST(TextLines, RefusesWhatIsNoText)
 {
-  EXPECT_EQ(MessageFor("a\nb\n"), "no error");
-  EXPECT_EQ(MessageFor(std::string("\xFF\xFE"
+  EXPECT_EQ(TableError("a\nb\n"), "no error");
+  EXPECT_EQ(TableError(std::string("\xFF\xFE"
                                    "a\0",
               4)),
     "the table: it is not plain text. Save it as UTF-8, not as UTF-16.");
-  EXPECT_NE(MessageFor(std::string("a\0b", 3)).find("not plain text"), std::string::npos);
+  EXPECT_NE(TableError(std::string("a\0b", 3)).find("not plain text"), std::string::npos);
   EXPECT_NE(
-    MessageFor("a\n\xFC\n").find("the table, line 2: it holds a letter"), std::string::npos);
+    TableError("a\n\xFC\n").find("the table, line 2: it holds a letter"), std::string::npos);
   EXPECT_THROW(ReadTableLines("it", "no such file", "Give one"), Error);
   EXPECT_THROW(ReadTableLines("it", testing::TempDir(), "Give one"), Error);
 }

@@ -13,13 +13,13 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 const Vec3 Axis{0.3, -0.5, 1.0};
 const Vec3 Half{1.1, 0.8, 0.6};
 
 /// Smoke in cells of 0.2 m around the origin.
-SmokeGrid Smoke(double extinction)
+SmokeGrid EvenSmoke(double extinction)
 {
   return scenes::UniformSmoke(Vec3(-2.0), Vec3(2.0), {20, 20, 20}, extinction);
 }
@@ -64,7 +64,7 @@ TEST(CutCells, FurnaceOfSmoke)
   report::Head("White room around glowing smoke, turned by odd angles");
   SceneDescription scene;
   scene.Albedo = 0.8;
-  scene.Grids = {Smoke(1.0)};
+  scene.Grids = {EvenSmoke(1.0)};
   scene.Grids[0].EmittedLuminance.assign(scene.Grids[0].Extinction.size(), 1.0F);
   scenes::AddRoom(scene.Surfaces, -Half, Half, 0.4, 1.0);
   CheckUniform(scene, 1.0, 0.003);
@@ -77,7 +77,7 @@ TEST(CutCells, FurnaceOfWalls)
   report::Head("Glowing room around white smoke, turned by odd angles");
   SceneDescription scene;
   scene.Albedo = 1.0;
-  scene.Grids = {Smoke(1.0)};
+  scene.Grids = {EvenSmoke(1.0)};
   scene.Emitters = scenes::EmittingRoom(-Half, Half, 4, 1.0, 0.5);
   CheckUniform(scene, 2.0, 0.01);
 }
@@ -86,7 +86,7 @@ SceneDescription SmokeAround(double albedo, double extinction)
 {
   SceneDescription scene;
   scene.Albedo = albedo;
-  scene.Grids = {Smoke(extinction)};
+  scene.Grids = {EvenSmoke(extinction)};
   return scene;
 }
 
@@ -175,7 +175,7 @@ void CheckColumn(std::uint64_t samples)
   const Vec3 foot(0.13, 0.17, -0.8);
   const auto corner = [&foot](int side)
   {
-    const double angle = 2.0 * Pi * side / Sides;
+    const double angle = 2.0 * pi * side / Sides;
     return foot + 0.33 * Vec3(std::cos(angle), std::sin(angle), 0.0);
   };
   for (int side = 0; side < Sides; ++side)

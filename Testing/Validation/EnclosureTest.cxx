@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 constexpr int Across = 25;
 constexpr int Along = 16;
@@ -74,7 +74,7 @@ void CheckProfiles(double opticalSide, double albedo)
     const bool centre = table.Text(row, "line") == "centre x=0.5";
     const Estimate fluence = solved.Fluence(CellsAt(centre ? 0.5 : 0.1, y));
     report::Relative(table.Text(row, "line") + " y " + table.Text(row, "y_over_L"),
-      table.Number(row, "M"), fluence.Mean / (4.0 * Pi), 0.01, fluence.StandardError / (4.0 * Pi));
+      table.Number(row, "M"), fluence.Mean / (4.0 * pi), 0.01, fluence.StandardError / (4.0 * pi));
   }
   const report::ReferenceTable fluxes("square2d_wallflux_own.csv");
   for (std::size_t row = 0; row < fluxes.Rows(); ++row)
@@ -98,10 +98,10 @@ void CheckProfiles(double opticalSide, double albedo)
     const Estimate onSide = solved.Illuminance(side, 0);
     const Estimate onOpposite = solved.Illuminance(opposite, 0);
     const std::string name = " at " + fluxes.Text(row, "s");
-    report::Relative("side wall" + name, fluxes.Number(row, "H_side"), onSide.Mean / Pi, 0.01,
-      onSide.StandardError / Pi);
-    report::Relative("opposite wall" + name, fluxes.Number(row, "H_opposite"), onOpposite.Mean / Pi,
-      0.01, onOpposite.StandardError / Pi);
+    report::Relative("side wall" + name, fluxes.Number(row, "H_side"), onSide.Mean / pi, 0.01,
+      onSide.StandardError / pi);
+    report::Relative("opposite wall" + name, fluxes.Number(row, "H_opposite"), onOpposite.Mean / pi,
+      0.01, onOpposite.StandardError / pi);
   }
 }
 
@@ -125,7 +125,7 @@ TEST(Enclosure, PublishedConservativeSquare)
     const Estimate below = solved.Fluence(CellsAt(0.5, low));
     const Estimate above = share > 0.0 ? solved.Fluence(CellsAt(0.5, low + 1.0 / Across)) : below;
     const auto between = [share](double a, double b)
-    { return ((1.0 - share) * a + share * b) / (4.0 * Pi); };
+    { return ((1.0 - share) * a + share * b) / (4.0 * pi); };
     report::Relative("y " + table.Text(row, "y_over_L"), table.Number(row, "S_published"),
       between(below.Mean, above.Mean), 0.01, between(below.StandardError, above.StandardError));
   }

@@ -16,7 +16,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<std::int64_t> AllCells(const Solved& solved)
 {
@@ -47,12 +47,12 @@ void CheckUniform(const Solved& solved, double exact, double tolerance, const st
   }
   const Estimate onWalls = solved.Illuminance(patches, 0);
   report::Relative(
-    name + " mean illuminance", Pi * exact, onWalls.Mean, tolerance, onWalls.StandardError);
+    name + " mean illuminance", pi * exact, onWalls.Mean, tolerance, onWalls.StandardError);
   if (!solved.TheScene->Smoke().Empty())
   {
     const Estimate inSmoke = solved.Fluence(AllCells(solved));
     report::Relative(
-      name + " mean fluence", 4.0 * Pi * exact, inSmoke.Mean, tolerance, inSmoke.StandardError);
+      name + " mean fluence", 4.0 * pi * exact, inSmoke.Mean, tolerance, inSmoke.StandardError);
   }
 }
 
@@ -151,9 +151,9 @@ TEST(Furnace, WhiteSmokeBetweenReflectingWalls)
         EXPECT_EQ(WorkCount(solved.Field->Report, "coarse cells"),
           extinction > 10.0 ? static_cast<double>(cells.size()) : 0.0);
         const Estimate mean = solved.Fluence(cells);
-        report::Relative(name + ", mean", 4.0 * Pi, mean.Mean, 0.0005, mean.StandardError);
+        report::Relative(name + ", mean", 4.0 * pi, mean.Mean, 0.0005, mean.StandardError);
         const Estimate middle = solved.Fluence(Vec3(0.1));
-        report::Relative(name + ", middle", 4.0 * Pi, middle.Mean, 0.001, middle.StandardError);
+        report::Relative(name + ", middle", 4.0 * pi, middle.Mean, 0.001, middle.StandardError);
       }
     }
   }
@@ -180,8 +180,8 @@ TEST(Furnace, FineMeshWithinACoarseOne)
     {
       const Estimate fluence = solved.Fluence(std::vector<std::int64_t>{cell});
       ASSERT_GT(fluence.StandardError, 0.0) << "cell " << cell;
-      sum += std::pow((fluence.Mean - 4.0 * Pi) / fluence.StandardError, 2.0) / fine;
-      error += fluence.StandardError / (4.0 * Pi) / fine;
+      sum += std::pow((fluence.Mean - 4.0 * pi) / fluence.StandardError, 2.0) / fine;
+      error += fluence.StandardError / (4.0 * pi) / fine;
     }
     // A standard error of 16 batches is itself known to a fifth, which makes tails of z longer.
     report::Absolute(
@@ -206,7 +206,7 @@ TEST(Furnace, FineMeshAcrossCoarseCells)
     for (const std::int64_t cell : AllCells(solved))
     {
       const Estimate fluence = solved.Fluence(std::vector<std::int64_t>{cell});
-      const double deviation = fluence.Mean / (4.0 * Pi) - 1.0;
+      const double deviation = fluence.Mean / (4.0 * pi) - 1.0;
       if (solved.TheScene->Smoke().OwnVolume(cell) > 0.0 &&
           std::abs(deviation) > std::abs(farthest))
       {
@@ -267,7 +267,7 @@ TEST(Furnace, PatchesThatABoxStandsOn)
     {
       const Estimate seen = solved.Illuminance({floor + patch}, 0);
       report::Relative(
-        (boxFirst ? "box first, patch " : "floor first, patch ") + std::to_string(patch), Pi,
+        (boxFirst ? "box first, patch " : "floor first, patch ") + std::to_string(patch), pi,
         seen.Mean, 0.01, seen.StandardError);
     }
   }
@@ -285,9 +285,9 @@ TEST(Furnace, WhiteSmokeAmidAWhiteRoom)
       const std::string name = "K " + std::to_string(extinction).substr(0, 4) + ", reflectance " +
                                std::to_string(reflectance).substr(0, 4);
       const Estimate mean = solved.Fluence(AllCells(solved));
-      report::Relative(name + ", mean", 4.0 * Pi, mean.Mean, 0.0005, mean.StandardError);
+      report::Relative(name + ", mean", 4.0 * pi, mean.Mean, 0.0005, mean.StandardError);
       const Estimate middle = solved.Fluence(Vec3(0.1));
-      report::Relative(name + ", middle", 4.0 * Pi, middle.Mean, 0.001, middle.StandardError);
+      report::Relative(name + ", middle", 4.0 * pi, middle.Mean, 0.001, middle.StandardError);
     }
   }
 }
@@ -320,7 +320,7 @@ TEST(Furnace, AbsorbingSphere)
     for (int i = 0; i < Directions; ++i)
     {
       const double z = 1.0 - 2.0 * random.Uniform();
-      const double azimuth = 2.0 * Pi * random.Uniform();
+      const double azimuth = 2.0 * pi * random.Uniform();
       const double r = std::sqrt(1.0 - z * z);
       const Ray ray{Vec3(0.0), {r * std::cos(azimuth), r * std::sin(azimuth), z}};
       const RayLight light = solved.Trace(ray);

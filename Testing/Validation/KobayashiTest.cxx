@@ -17,7 +17,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The report's centimetres are taken as metres here. Its mirror planes become the whole cube.
 /// @param cells along each side of 200 m, a multiple of 20: of 10 mean free paths to each side
@@ -42,7 +42,7 @@ SceneDescription Problem1(double albedo, int cells)
         if (source)
         {
           // k_a L_emit = 1 / (4 pi): one particle a cubic centimetre and second.
-          grid.EmittedLuminance[cell] = static_cast<float>(0.25 / Pi / (0.1 * (1.0 - albedo)));
+          grid.EmittedLuminance[cell] = static_cast<float>(0.25 / pi / (0.1 * (1.0 - albedo)));
         }
       }
     }
@@ -76,7 +76,7 @@ Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
 {
   const std::vector<Vec3> places = Equals(point);
   const int each = directions / static_cast<int>(places.size());
-  const double golden = Pi * (3.0 - std::sqrt(5.0));
+  const double golden = pi * (3.0 - std::sqrt(5.0));
   std::vector<DoubleLanes> light(places.size());
   tbb::parallel_for(std::size_t{0}, places.size(),
     [&](std::size_t place)
@@ -90,7 +90,7 @@ Estimate FluenceByViews(const Solved& solved, const Vec3& point, int directions)
           solved.TheView->TraceVeil(places[place], direction, 0.0, 400.0, 0).TotalLanes();
         for (int batch = 0; batch < Batches; ++batch)
         {
-          light[place][batch] += 4.0 * Pi * seen[batch] / each;
+          light[place][batch] += 4.0 * pi * seen[batch] / each;
         }
       }
     });

@@ -10,13 +10,13 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A wide beam, brightest off the normal and cut off at 75 degrees, stronger to both sides.
 double Candela(double polar, double azimuth)
 {
   const double sine = std::sin(polar);
-  return polar > 5.0 * Pi / 12.0 ? 0.0
+  return polar > 5.0 * pi / 12.0 ? 0.0
                                  : 400.0 * std::cos(polar) * (0.5 + 1.5 * sine * sine) *
                                      (1.0 + 0.5 * sine * sine * std::cos(2.0 * azimuth));
 }
@@ -36,12 +36,12 @@ EmitterCell DownLight(const Vec3& centre, double& flux)
     azimuth.push_back(c);
     for (const double g : polar)
     {
-      candela.push_back(Candela(g * Pi / 180.0, c * Pi / 180.0));
+      candela.push_back(Candela(g * pi / 180.0, c * pi / 180.0));
     }
   }
   flux = IntensityTable::Flux(polar, azimuth, candela);
   EmitterCell lamp = scenes::Plate(
-    centre, {0, 0, -1}, {0, 1, 0}, LampSide, LampSide, flux / (Pi * LampSide * LampSide));
+    centre, {0, 0, -1}, {0, 1, 0}, LampSide, LampSide, flux / (pi * LampSide * LampSide));
   lamp.Table = std::make_shared<IntensityTable>(polar, azimuth, candela);
   lamp.TableAxis = {1, 0, 0};
   return lamp;
@@ -138,7 +138,7 @@ TEST(Photometry, LuminanceThatAnEyeSees)
   const Vec3 eye(0.0, 1.0, 1.7);
   const Vec3 way = Vec3(0, 0, 3) - eye;
   const double polar = std::atan2(1.0, 1.3);
-  report::Relative("luminance", Candela(polar, Pi / 2.0) / (LampSide * LampSide * std::cos(polar)),
+  report::Relative("luminance", Candela(polar, pi / 2.0) / (LampSide * LampSide * std::cos(polar)),
     solved.Luminance({eye, glm::normalize(way)}).Mean, 1e-3);
 }
 

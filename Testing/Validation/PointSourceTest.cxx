@@ -14,7 +14,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A small icosahedron of Lambertian faces that stands for a point source. Its intensity in a
 /// direction is luminance times projected area; by Cauchy's theorem the mean of that is a quarter
@@ -88,7 +88,7 @@ public:
   {
     // Beyond 15 mean free paths lies less than 1e-6 of the light.
     const double end = std::min(15.0, length);
-    const Vec3 direction(std::cos(angle * Pi / 180.0), std::sin(angle * Pi / 180.0), 0.0);
+    const Vec3 direction(std::cos(angle * pi / 180.0), std::sin(angle * pi / 180.0), 0.0);
     const RayLight light = this->Solved_.TheView->TraceVeil(Vec3(0.0), direction, 0.0, end, 0);
     report::Relative(name, reference * ShapeFactor(this->Source_, this->At_, direction, end),
       light.Veil() / Albedo, 0.01, StandardError(light.VeilMultiple) / Albedo);
@@ -143,7 +143,7 @@ TEST(PointSource, AirlightByTheFunctionF)
 {
   report::Head("Airlight of a point source by F(u, v)");
   const report::ReferenceTable table("airlight_F_function.csv");
-  constexpr double Degree = Pi / 180.0;
+  constexpr double Degree = pi / 180.0;
   int rows = 0;
   for (std::size_t from = 0; from < table.Rows(); ++from)
   {
@@ -162,7 +162,7 @@ TEST(PointSource, AirlightByTheFunctionF)
       airlight.Check("u " + table.Text(from, "u") + " v " + table.Text(from, "v_deg") + " to " +
                        table.Text(to, "v_deg"),
         angle, end < 90.0 ? along + u * std::tan(end * Degree) : INFINITY,
-        std::exp(-along) / (2.0 * Pi * u) * (table.Number(to, "F") - table.Number(from, "F")));
+        std::exp(-along) / (2.0 * pi * u) * (table.Number(to, "F") - table.Number(from, "F")));
     }
   }
   EXPECT_EQ(rows, 72);
@@ -196,7 +196,7 @@ TEST(PointSource, InfiniteMediumLong)
     const std::size_t size = nodes.size() - 1;
     grid.Extinction.assign(size * size * size, 1.0F);
     description.Grids = {grid};
-    description.Emitters = PointSource(Vec3(0.0), 0.01, 0.25 / Pi);
+    description.Emitters = PointSource(Vec3(0.0), 0.01, 0.25 / pi);
     const Solved solved(description);
     for (std::size_t row = 0; row < table.Rows(); ++row)
     {

@@ -13,7 +13,7 @@ namespace smokevis
 namespace
 {
 
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint64_t ChunkSize = 1024;
 /// Paths lighter than this are continued by Russian roulette.
 constexpr double RouletteWeight = 0.25;
@@ -21,7 +21,7 @@ constexpr double RouletteWeight = 0.25;
 Vec3 SphereDirection(Pcg32& random)
 {
   const double z = 1.0 - 2.0 * random.Uniform();
-  const double azimuth = 2.0 * Pi * random.Uniform();
+  const double azimuth = 2.0 * pi * random.Uniform();
   const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
@@ -71,7 +71,7 @@ ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, int band)
   {
     const EmitterCell& emitter = lights.Cells()[cell];
     const std::vector<Vec3>& corners = emitter.Vertices;
-    this->Exitance_.push_back(2.0 * Pi * emitter.Luminance[band] / (emitter.Exponent + 2.0));
+    this->Exitance_.push_back(2.0 * pi * emitter.Luminance[band] / (emitter.Exponent + 2.0));
     if (this->Exitance_.back() <= 0.0)
     {
       continue;
@@ -200,7 +200,7 @@ Estimate ReferenceIntegrator::MeanFluence(
 {
   return this->Run(samples, seed,
     [&](Pcg32& random, Flight& flight) {
-      return 4.0 * Pi * this->Collect({draw(random), Vec3(0.0), false}, random, flight);
+      return 4.0 * pi * this->Collect({draw(random), Vec3(0.0), false}, random, flight);
     });
 }
 
@@ -210,7 +210,7 @@ Estimate ReferenceIntegrator::Illuminance(
 {
   const Vertex vertex{point, normal, true};
   return this->Run(samples, seed,
-    [&](Pcg32& random, Flight& flight) { return Pi * this->Collect(vertex, random, flight); });
+    [&](Pcg32& random, Flight& flight) { return pi * this->Collect(vertex, random, flight); });
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -391,7 +391,7 @@ double ReferenceIntegrator::Collect(Vertex vertex, Pcg32& random, Flight& flight
     // Directions follow the integrand's own kernel, which leaves the weight as it is.
     const Vec3 direction =
       vertex.OnSurface ? CosineDirection(vertex.Normal, random) : SphereDirection(random);
-    const double density = vertex.OnSurface ? glm::dot(vertex.Normal, direction) / Pi : 0.25 / Pi;
+    const double density = vertex.OnSurface ? glm::dot(vertex.Normal, direction) / pi : 0.25 / pi;
     const Ray ray{vertex.Point, direction};
     const Vec3 shift = this->Shift(vertex);
     this->Fly(ray, shift, flight);
@@ -470,7 +470,7 @@ double ReferenceIntegrator::NextEvent(const Vertex& vertex, Pcg32& random) const
     -this->Scale_ * this->Scene_->Smoke().OpticalDepth(vertex.Point, direction, 0.0, distance));
   const double emitted = cell.Luminance[this->Band_] *
                          (cell.Exponent > 0.0 ? std::pow(lightCosine, cell.Exponent) : 1.0);
-  const double kernel = vertex.OnSurface ? cosine / Pi : 0.25 / Pi;
+  const double kernel = vertex.OnSurface ? cosine / pi : 0.25 / pi;
   const double lightDensity =
     this->Exitance_[found->Cell] / this->TotalFlux_ * distance * distance / lightCosine;
   // Balance heuristic: share / lightDensity with share = lightDensity / (lightDensity + kernel).

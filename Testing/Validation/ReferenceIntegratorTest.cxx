@@ -10,7 +10,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Closed box, walls emit Le and reflect rho, smoke scatters without loss: L = Le / (1 - rho)
 // everywhere. 0.2 % beside three standard errors, which is the promise of the furnace tests.
@@ -33,9 +33,9 @@ TEST(ReferenceIntegrator, WhiteFurnace)
     const std::string name = "rho " + std::to_string(rho).substr(0, 3);
     report::Relative(name + " radiance", exact, radiance.Mean, 0.002, radiance.StandardError);
     report::Relative(
-      name + " fluence", 4.0 * Pi * exact, fluence.Mean, 0.002, fluence.StandardError);
+      name + " fluence", 4.0 * pi * exact, fluence.Mean, 0.002, fluence.StandardError);
     report::Relative(
-      name + " illuminance", Pi * exact, illuminance.Mean, 0.002, illuminance.StandardError);
+      name + " illuminance", pi * exact, illuminance.Mean, 0.002, illuminance.StandardError);
   }
 }
 
@@ -112,7 +112,7 @@ TEST(ReferenceIntegrator, EmittingSmoke)
   const Scene scene(description);
   const ReferenceIntegrator reference(scene);
   const Estimate fluence = reference.Fluence({0.7, 0.4, 0.5}, 20000, 2);
-  report::Relative("fluence", 8.0 * Pi, fluence.Mean, 1e-6, fluence.StandardError);
+  report::Relative("fluence", 8.0 * pi, fluence.Mean, 1e-6, fluence.StandardError);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace smokevis;
-constexpr double Pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double Sky = 1000.0;
 
 /// E3(x), the exponential integral, by Simpson's rule over mu: integral of mu exp(-x / mu).
@@ -36,8 +36,8 @@ TEST(Sky, Unhidden)
   scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {4, 4, 2}, {8, 8, 4}, 0.0)};
   scenes::AddRectangle(scene.Surfaces, {1, 1, 1}, {2, 0, 0}, {0, 2, 0}, 2, 2, 0.0);
   const Solved solved(std::move(scene), 1e-3);
-  report::Relative("plate, above", Pi * Sky, solved.Illuminance({0, 1, 2, 3}, 0).Mean, 1e-3);
-  report::Relative("plate, below", Pi * Sky, solved.Illuminance({0, 1, 2, 3}, 1).Mean, 1e-3);
+  report::Relative("plate, above", pi * Sky, solved.Illuminance({0, 1, 2, 3}, 0).Mean, 1e-3);
+  report::Relative("plate, below", pi * Sky, solved.Illuminance({0, 1, 2, 3}, 1).Mean, 1e-3);
   report::Relative("luminance", Sky, solved.Luminance({{0.5, 0.5, 1.5}, {0, 0, 1}}).Mean, 1e-12);
   SceneDescription empty;
   empty.Sky = Sky;
@@ -45,7 +45,7 @@ TEST(Sky, Unhidden)
   const Solved air(std::move(empty), 1e-3);
   std::vector<std::int64_t> cells(air.TheScene->Smoke().Cells());
   std::iota(cells.begin(), cells.end(), 0);
-  report::Relative("fluence", 4.0 * Pi * Sky, air.Fluence(cells).Mean, 1e-3);
+  report::Relative("fluence", 4.0 * pi * Sky, air.Fluence(cells).Mean, 1e-3);
 }
 
 /// A tunnel of 2 x 1 x 1 m, open at both ends.
@@ -84,7 +84,7 @@ TEST(Sky, Furnace)
   }
   const Estimate fluence = solved.Fluence(cells);
   // The start that has not settled is the bias that the tolerance of 0.01 allows.
-  report::Relative("mean fluence", 4.0 * Pi * Sky, fluence.Mean, 0.01, fluence.StandardError);
+  report::Relative("mean fluence", 4.0 * pi * Sky, fluence.Mean, 0.01, fluence.StandardError);
   const Estimate luminance = solved.Luminance({{1.9, 0.5, 0.5}, {-1, 0.1, 0.05}});
   report::Relative("luminance", Sky, luminance.Mean, 0.01, luminance.StandardError);
 }
@@ -101,7 +101,7 @@ TEST(Sky, GreyTunnel)
   scenes::AddRectangle(layer.Surfaces, {-500, -500, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, 0.0);
   const Scene open(layer);
   const Estimate through = ReferenceIntegrator(open).Illuminance({0, 0, 0}, {0, 0, 1}, 200000, 1);
-  report::Relative("the path tracer's light through a layer", 2.0 * Pi * Sky * E3(1.0),
+  report::Relative("the path tracer's light through a layer", 2.0 * pi * Sky * E3(1.0),
     through.Mean, 0.001, through.StandardError);
 
   const Solved solved(OpenTunnel(
@@ -142,7 +142,7 @@ TEST(Sky, BeerLambert)
     }
   }
   const Estimate below = solved.Illuminance(middle, 0);
-  report::Relative("illuminance", 2.0 * Pi * Sky * E3(1.0), below.Mean, 0.002, below.StandardError);
+  report::Relative("illuminance", 2.0 * pi * Sky * E3(1.0), below.Mean, 0.002, below.StandardError);
 }
 
 /// Configuration factor from a small plate to a rectangle, width a and height b, upright on the
@@ -150,7 +150,7 @@ TEST(Sky, BeerLambert)
 double WindowFactor(double a, double b, double c)
 {
   const double y = std::hypot(b, c);
-  return (std::atan(a / c) - c / y * std::atan(a / y)) / (2.0 * Pi);
+  return (std::atan(a / c) - c / y * std::atan(a / y)) / (2.0 * pi);
 }
 
 // A dark room with a window: on the floor E = pi L times the window's configuration factor. What
@@ -199,7 +199,7 @@ TEST(Sky, Window)
       }
     }
     const Estimate value = solved.Illuminance({first + cell}, 0);
-    const double expected = Pi * Sky * sum / (steps * steps);
+    const double expected = pi * Sky * sum / (steps * steps);
     report::Relative(std::to_string(1.5 + cell) + " m from the window", expected, value.Mean, 0.003,
       value.StandardError);
     sumOfExpected += expected;

@@ -19,7 +19,7 @@ namespace
 
 using namespace smokevis;
 
-const Vec3 Eye(3.6, 4.1, 1.7);
+const Vec3 HallEye(3.6, 4.1, 1.7);
 const Vec3 SignCentre(15.9, 4.0, 2.5);
 
 /// A hall full of soot of about one mean free path a metre. A sign and a lamp above it are twelve
@@ -43,14 +43,15 @@ Estimate OfLanes(const Lanes& lanes)
 
 Estimate Traced(const View& view)
 {
-  const Vec3 way = SignCentre - Eye;
-  return OfLanes(view.TraceVeil(Eye, glm::normalize(way), 0.0, glm::length(way), 0).VeilMultiple);
+  const Vec3 way = SignCentre - HallEye;
+  return OfLanes(
+    view.TraceVeil(HallEye, glm::normalize(way), 0.0, glm::length(way), 0).VeilMultiple);
 }
 
 Estimate Gathered(const View& view)
 {
-  const Vec3 way = SignCentre - Eye;
-  return OfLanes(view.GatherVeil(Eye, {{glm::normalize(way), glm::length(way)}}, 0).Multiple);
+  const Vec3 way = SignCentre - HallEye;
+  return OfLanes(view.GatherVeil(HallEye, {{glm::normalize(way), glm::length(way)}}, 0).Multiple);
 }
 
 struct Spread
@@ -89,16 +90,16 @@ TEST(VeilGather, DarkHall)
   report::Head("Veil before a sign in the dark [cd/m2]");
   const Solved fine(DarkHall(2), 0.005, 99);
   const Estimate truth = Traced(*fine.TheView);
-  const SignMeasurement trueSign = MeasureSign(*fine.TheView, 0, Eye, Observer{0.0});
+  const SignMeasurement trueSign = MeasureSign(*fine.TheView, 0, HallEye, Observer{0.0});
   std::vector<Estimate> traced, gathered, luminances, luminancesTraced, contrasts;
   for (int seed = 1; seed <= Seeds; ++seed)
   {
     const Solved rough(DarkHall(1), 0.1, static_cast<std::uint64_t>(seed));
     traced.push_back(Traced(*rough.TheView));
     gathered.push_back(Gathered(*rough.TheView));
-    const SignMeasurement sign = MeasureSign(*rough.TheView, 0, Eye, Observer{0.0});
+    const SignMeasurement sign = MeasureSign(*rough.TheView, 0, HallEye, Observer{0.0});
     // One that is lost in the observer's own noise is not gathered for.
-    const SignMeasurement lost = MeasureSign(*rough.TheView, 0, Eye, Observer{1.0});
+    const SignMeasurement lost = MeasureSign(*rough.TheView, 0, HallEye, Observer{1.0});
     EXPECT_EQ(lost.Rays, 0U);
     EXPECT_EQ(lost.LeftUncertain, sign.Rays > 0);
     EXPECT_FALSE(sign.LeftUncertain);
@@ -154,8 +155,8 @@ TEST(VeilGather, UnitOfLengthPlaceAndBrightness)
   {
     const Solved a(plain, 0.1);
     const Solved b(other, 0.1);
-    const SignMeasurement one = MeasureSign(*a.TheView, 0, Eye, Observer{0.0});
-    const SignMeasurement two = MeasureSign(*b.TheView, 0, scale * Eye + offset, Observer{0.0});
+    const SignMeasurement one = MeasureSign(*a.TheView, 0, HallEye, Observer{0.0});
+    const SignMeasurement two = MeasureSign(*b.TheView, 0, scale * HallEye + offset, Observer{0.0});
     EXPECT_GT(one.Rays, 0U);
     EXPECT_EQ(one.Rays, two.Rays);
     report::Relative(
@@ -187,7 +188,7 @@ TEST(VeilGather, MapHasSameBitsForAllThreads)
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
   const Solved solved(DarkHall(1), 0.1);
   FloorMapOptions options;
-  options.FirstPlace = Eye;
+  options.FirstPlace = HallEye;
   options.PlacesX = 4;
   options.PlacesY = 3;
   options.StepX = 0.4;

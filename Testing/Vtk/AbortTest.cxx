@@ -202,8 +202,6 @@ protected:
   vtkNew<vtkSmokeLightField> Field;
 };
 
-} // namespace
-
 TEST_F(AbortTest, OfTheLightField)
 {
   CheckAbort(this->Field, [this](int step) { this->Field->SetSeed(1 + step); });
@@ -272,3 +270,5 @@ TEST(ReaderAbortTest, OfABuilding)
     CheckAbort(reader, [&](int step) { reader->SetUnitScale(step == 0 ? 1.0 : 0.5); });
   }
 }
+
+} // namespace

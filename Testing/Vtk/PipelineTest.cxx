@@ -60,8 +60,6 @@ protected:
   vtkNew<vtkVisibilityImage> View;
 };
 
-} // namespace
-
 TEST_F(PipelineTest, ShowsASignInClearAirAsItIs)
 {
   EXPECT_NEAR(this->Result("LitLuminance"), 300.0, 1e-3);
@@ -196,3 +194,5 @@ TEST_F(PipelineTest, MapsTheFloor)
       output->GetPointData()->GetArray("Visibility")->GetComponent(i, 0), std::sqrt(0.8), 0.03);
   }
 }
+
+} // namespace

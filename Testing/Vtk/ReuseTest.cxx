@@ -115,8 +115,6 @@ protected:
   vtkNew<vtkLuminaireSource> Lamp;
 };
 
-} // namespace
-
 TEST_F(ReuseTest, AStepThatChangesNothingKeepsAll)
 {
   Chain chain(this->Smoke, this->Wall, this->Sign, this->Lamp);
@@ -186,3 +184,5 @@ TEST_F(ReuseTest, OtherAccuracyIsSolvedAnew)
   chain.Values();
   EXPECT_EQ(chain.FieldEntry("light fields solved"), -1.0);
 }
+
+} // namespace

@@ -44,8 +44,6 @@ protected:
   vtkNew<vtkVisibilityOverTime> Filter;
 };
 
-} // namespace
-
 TEST_F(VisibilityOverTimeTest, PutsTheLossWhereTheLineCrossesTheThreshold)
 {
   // From 0.6 to 0.1 within 20 s: the threshold of 0.2 is crossed after 16 s.
@@ -163,3 +161,5 @@ TEST_F(VisibilityOverTimeTest, EndsWithAnErrorWhereAStepFails)
   this->Maps->Modified();
   EXPECT_EQ(this->Value("Outcome"), vtkVisibilityOverTime::KEPT);
 }
+
+} // namespace
