@@ -1,5 +1,6 @@
 #include "LineChoice.h"
 
+#include "GlowingBodies.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -26,6 +27,9 @@ constexpr double MostTimes = 2.0;
 constexpr double InnerRatio = 3.0;
 /// How many times as many lines grids need at least that get some of their own.
 constexpr double MuchFiner = 2.0;
+/// Lines that meet smoke that shines by itself over all others, where nothing else shines: what
+/// comes from there to other places comes along them.
+constexpr double GlowLines = 0.5;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.7;
 /// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
@@ -234,18 +238,26 @@ GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)
   {
     lines.AddInner(inner, mainLines);
   }
+  const auto addThrough = [&](const Box& part, double wanted)
+  {
+    const double lacking = wanted - lines.Meetings(part.Surface(), part);
+    if (lacking > 0.0)
+    {
+      lines.AddInner(part, static_cast<std::size_t>(std::ceil(lacking)));
+    }
+  };
   for (std::size_t i = 1; i < groups.size(); ++i)
   {
     MergeWhereSmaller(groups[i].Boxes);
     for (const Box& part : groups[i].Boxes)
     {
       const Box fine = within(part);
-      const double lacking = groups[i].Density() - lines.Meetings(1.0, fine);
-      if (lacking > 0.0)
-      {
-        lines.AddInner(fine, static_cast<std::size_t>(std::ceil(lacking * fine.Surface())));
-      }
+      addThrough(fine, groups[i].Density() * fine.Surface());
     }
+  }
+  for (const GlowingBody& body : GlowingBodies(scene, band))
+  {
+    addThrough(within(body.Bounds), GlowLines * body.Share * static_cast<double>(mainLines));
   }
   return lines;
 }

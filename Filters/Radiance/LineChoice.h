@@ -15,7 +15,7 @@ class Scene;
 /// Lines through the scene that cross a smoke cell of its mesh's mean size about 1.5 times and meet
 /// each patch that sends light on or out as often, in the mean; these more often below a tolerance
 /// of 0.03, so that they need not be put together (PatchGroups). Grids of much smaller cells get
-/// lines of their own.
+/// lines of their own, and so does smoke that shines by itself.
 GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
 
 /// How many of the lines are expected to meet a smoke cell.
