@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace smokevis
 {
@@ -91,5 +93,29 @@ struct Box
     return end > begin;
   }
 };
+
+/// Joins things in boxes that lines meet no more often in one box than in two.
+/// @param boxOf(thing) its box
+/// @param join(thing, other) adds the other to it, its box to the thing's
+template <class Thing, class BoxOf, class Join>
+void JoinWhereSmaller(std::vector<Thing>& things, BoxOf&& boxOf, Join&& join)
+{
+  for (std::size_t one = 0; one < things.size(); ++one)
+  {
+    for (std::size_t other = 0; other < one; ++other)
+    {
+      Box both = boxOf(things[one]);
+      both.Add(boxOf(things[other]));
+      if (both.Surface() <= boxOf(things[one]).Surface() + boxOf(things[other]).Surface())
+      {
+        join(things[other], things[one]);
+        things.erase(things.begin() + static_cast<std::ptrdiff_t>(one));
+        // Others may fit now.
+        one = 0;
+        break;
+      }
+    }
+  }
+}
 
 } // namespace smokevis

@@ -1,6 +1,6 @@
 #include "LineChoice.h"
 
-#include "GlowingBodies.h"
+#include "BrightBodies.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -27,9 +27,10 @@ constexpr double MostTimes = 2.0;
 constexpr double InnerRatio = 3.0;
 /// How many times as many lines grids need at least that get some of their own.
 constexpr double MuchFiner = 2.0;
-/// Lines that meet smoke that shines by itself over all others, where nothing else shines: what
-/// comes from there to other places comes along them.
-constexpr double GlowLines = 0.5;
+/// Lines through what is bright over all others, were all light to begin there, at a small
+/// tolerance: the light that is sent on there comes to other places along them. Above FineTolerance
+/// their share falls with its square: a few sweeps there must be, which bring less noise anyway.
+constexpr double BrightLines = 0.5;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.7;
 /// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
@@ -157,27 +158,6 @@ std::vector<CellGroup> CellGroups(const Medium& smoke)
   return groups;
 }
 
-/// Puts boxes into one that lines need not meet more often than both.
-void MergeWhereSmaller(std::vector<Box>& boxes)
-{
-  for (std::size_t one = 0; one < boxes.size(); ++one)
-  {
-    for (std::size_t other = 0; other < one; ++other)
-    {
-      Box both = boxes[one];
-      both.Add(boxes[other]);
-      if (both.Surface() <= boxes[one].Surface() + boxes[other].Surface())
-      {
-        boxes[other] = both;
-        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(one));
-        // Others may fit now.
-        one = 0;
-        break;
-      }
-    }
-  }
-}
-
 } // namespace
 
 std::vector<Box> PatchBounds(const Scene& scene)
@@ -206,7 +186,7 @@ bool ScattersOften(const Scene& scene, int band)
   return scene.Albedo() * depth / (1.0 + depth) > OftenShare;
 }
 
-GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)
+GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, double tolerance)
 {
   const Medium& smoke = scene.Smoke();
   const double meetings = CrossingsPerSweep * std::clamp(FineTolerance / tolerance, 1.0, MostTimes);
@@ -248,16 +228,20 @@ GlobalLines ChooseLines(const Scene& scene, int band, double tolerance)
   };
   for (std::size_t i = 1; i < groups.size(); ++i)
   {
-    MergeWhereSmaller(groups[i].Boxes);
+    JoinWhereSmaller(
+      groups[i].Boxes, [](const Box& part) -> const Box& { return part; },
+      [](Box& part, const Box& other) { part.Add(other); });
     for (const Box& part : groups[i].Boxes)
     {
-      const Box fine = within(part);
-      addThrough(fine, groups[i].Density() * fine.Surface());
+      const Box own = within(part);
+      addThrough(own, groups[i].Density() * own.Surface());
     }
   }
-  for (const GlowingBody& body : GlowingBodies(scene, band))
+  const double fine = std::min(1.0, FineTolerance / tolerance);
+  const double bright = BrightLines * fine * fine * static_cast<double>(mainLines);
+  for (const BrightBody& body : BrightBodies(scene, field, band))
   {
-    addThrough(within(body.Bounds), GlowLines * body.Share * static_cast<double>(mainLines));
+    addThrough(within(body.Bounds), bright * body.Share);
   }
   return lines;
 }

@@ -11,12 +11,14 @@ namespace smokevis
 
 class Medium;
 class Scene;
+struct LightField;
 
 /// Lines through the scene that cross a smoke cell of its mesh's mean size about 1.5 times and meet
 /// each patch that sends light on or out as often, in the mean; these more often below a tolerance
 /// of 0.03, so that they need not be put together (PatchGroups). Grids of much smaller cells get
-/// lines of their own, and so does smoke that shines by itself.
-GlobalLines ChooseLines(const Scene& scene, int band, double tolerance);
+/// lines of their own, and so do the places where most light is sent on for the first time.
+/// @param field holds the direct light
+GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, double tolerance);
 
 /// How many of the lines are expected to meet a smoke cell.
 double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell);

@@ -40,7 +40,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(ChooseLines(scene, band, tolerance)), ThinLines_(Lines_)
+      Lines_(ChooseLines(scene, field, band, tolerance)), ThinLines_(Lines_)
 {
   const bool often = ScattersOften(scene, band);
   const double share = often ? 1.0 : std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);

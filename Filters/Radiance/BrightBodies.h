@@ -1,0 +1,29 @@
+// Where most of what smoke sends on or out comes from.
+#pragma once
+
+#include "Box.h"
+
+#include <vector>
+
+namespace smokevis
+{
+
+class Scene;
+struct LightField;
+
+/// Cells that touch each other and are among those that send out most.
+struct BrightBody
+{
+  Box Bounds = Box::Nothing();
+  /// Of the power that all smoke emits and scatters of direct light, and all surfaces reflect of
+  /// it.
+  double Share = 0.0;
+};
+
+/// The brightest cells that together make seven tenths of the light that smoke emits and scatters
+/// for the first time: flames, and what lies before signs and lamps. Body by body, the strongest
+/// ones first, eight at most; those that fit into one box about as well are one.
+/// @param field holds the direct light
+std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field, int band);
+
+} // namespace smokevis
