@@ -106,7 +106,10 @@ void JoinWhereSmaller(std::vector<Thing>& things, BoxOf&& boxOf, Join&& join)
     {
       Box both = boxOf(things[one]);
       both.Add(boxOf(things[other]));
-      if (both.Surface() <= boxOf(things[one]).Surface() + boxOf(things[other]).Surface())
+      // Roundings must not decide where both are the same.
+      constexpr double rounding = 1.0 + 1e-6;
+      if (both.Surface() <=
+          rounding * (boxOf(things[one]).Surface() + boxOf(things[other]).Surface()))
       {
         join(things[other], things[one]);
         things.erase(things.begin() + static_cast<std::ptrdiff_t>(one));

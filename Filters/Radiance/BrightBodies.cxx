@@ -19,10 +19,13 @@ namespace
 {
 
 constexpr double BrightShare = 0.7;
+/// With those that are about as strong as the last one: roundings must not choose among them.
 constexpr std::size_t MostBodies = 8;
+constexpr double AboutAsStrong = 0.999;
 /// Before those that fit into one box are joined: flames lie about in pieces.
 constexpr std::size_t MostParts = 64;
-/// Brightness is told to an eighth of its doubling.
+/// Brightness is told to an eighth of its doubling, compared with the brightest cell, so that it
+/// does not hang on units.
 constexpr double StepsADoubling = 8.0;
 
 /// What smoke emits and scatters of direct light.
@@ -47,11 +50,6 @@ public:
   {
     return this->PerVolume(cell) * this->Smoke_.OwnVolume(cell);
   }
-  /// How bright a cell is, as a whole number; the brighter, the larger.
-  int Level(std::int64_t cell) const
-  {
-    return static_cast<int>(std::floor(StepsADoubling * std::log2(this->PerVolume(cell))));
-  }
 
 private:
   const Medium& Smoke_;
@@ -59,33 +57,62 @@ private:
   double Scatters_, Emits_;
 };
 
-/// Cells of at least the level from which on they make BrightShare of the light.
+/// The brightest cells that together make BrightShare of the light.
 std::vector<bool> BrightCells(const FirstPower& power, std::size_t cells)
 {
-  std::map<int, double, std::greater<>> levels;
+  double brightest = 0.0;
   double all = 0.0;
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
     if (const double own = power.Of(static_cast<std::int64_t>(cell)); own > 0.0)
     {
-      levels[power.Level(static_cast<std::int64_t>(cell))] += own;
+      brightest = std::max(brightest, power.PerVolume(static_cast<std::int64_t>(cell)));
       all += own;
     }
   }
-  double sum = 0.0;
-  int least = 0;
-  for (auto level = levels.begin(); level != levels.end() && sum < BrightShare * all; ++level)
+  const auto steps = [&](std::int64_t cell)
+  { return std::lround(StepsADoubling * std::log2(brightest / power.PerVolume(cell))); };
+  // Power by how many steps darker than the brightest cell it is.
+  std::map<long, double> powers;
+  for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    least = level->first;
-    sum += level->second;
+    if (const double own = power.Of(static_cast<std::int64_t>(cell)); own > 0.0)
+    {
+      powers[steps(static_cast<std::int64_t>(cell))] += own;
+    }
+  }
+  double sum = 0.0;
+  long most = 0;
+  for (auto step = powers.begin(); step != powers.end() && sum < BrightShare * all; ++step)
+  {
+    most = step->first;
+    sum += step->second;
   }
   std::vector<bool> bright(cells, false);
-  for (std::size_t i = 0; i < cells && all > 0.0; ++i)
+  for (std::size_t i = 0; i < cells; ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
-    bright[i] = power.Of(cell) > 0.0 && power.Level(cell) >= least;
+    bright[i] = power.Of(cell) > 0.0 && steps(cell) <= most;
   }
   return bright;
+}
+
+/// Leaves the strongest, so many at least, in the order that they are in.
+void KeepStrongest(std::vector<BrightBody>& bodies, std::size_t count)
+{
+  if (bodies.size() <= count)
+  {
+    return;
+  }
+  std::vector<double> shares;
+  for (const BrightBody& body : bodies)
+  {
+    shares.push_back(body.Share);
+  }
+  const auto last = shares.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::nth_element(shares.begin(), last, shares.end(), std::greater<>());
+  std::erase_if(
+    bodies, [least = AboutAsStrong * *last](const BrightBody& body) { return body.Share < least; });
 }
 
 /// Bright cells that touch each other, body by body, with their power as share.
@@ -133,9 +160,7 @@ std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field
   const FirstPower power(scene, field, band);
   std::vector<BrightBody> bodies =
     Connected(scene.Smoke(), power, BrightCells(power, scene.Smoke().Cells()));
-  const auto stronger = [](const BrightBody& a, const BrightBody& b) { return a.Share > b.Share; };
-  std::stable_sort(bodies.begin(), bodies.end(), stronger);
-  bodies.resize(std::min(bodies.size(), MostParts));
+  KeepStrongest(bodies, MostParts);
   JoinWhereSmaller(
     bodies, [](const BrightBody& body) -> const Box& { return body.Bounds; },
     [](BrightBody& body, const BrightBody& other)
@@ -143,8 +168,7 @@ std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field
       body.Bounds.Add(other.Bounds);
       body.Share += other.Share;
     });
-  std::stable_sort(bodies.begin(), bodies.end(), stronger);
-  bodies.resize(std::min(bodies.size(), MostBodies));
+  KeepStrongest(bodies, MostBodies);
   double whole = 0.0;
   for (std::size_t cell = 0; cell < scene.Smoke().Cells(); ++cell)
   {

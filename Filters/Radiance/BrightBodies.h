@@ -21,8 +21,8 @@ struct BrightBody
 };
 
 /// The brightest cells that together make seven tenths of the light that smoke emits and scatters
-/// for the first time: flames, and what lies before signs and lamps. Body by body, the strongest
-/// ones first, eight at most; those that fit into one box about as well are one.
+/// for the first time: flames, and what lies before signs and lamps. Body by body in the order of
+/// cells, the eight strongest ones; those that fit into one box about as well are one.
 /// @param field holds the direct light
 std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field, int band);
 

@@ -16,9 +16,10 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth across a cell below which a flat source errs by a thousandth at most of what it
-/// sends on, however little that is.
+/// Optical depth of scattering across a cell below which a flat source errs by a thousandth at most.
 constexpr double ThinnestDepth = 0.05;
+/// Soot of a lower albedo is looked at as if it had this one: what little it sends on is the veil.
+constexpr double LeastAlbedo = 0.5;
 
 } // namespace
 
@@ -28,12 +29,13 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
 {
   const Medium& smoke = scene.Smoke();
+  const double albedo = scene.Albedo() > 0.0 ? std::max(LeastAlbedo, scene.Albedo()) : 0.0;
   std::vector<std::int64_t> shaped;
   for (std::size_t i = 0; i < extinction.size(); ++i)
   {
     const auto cell = static_cast<std::int64_t>(i);
     const double depth = extinction[i] * smoke.MeanChord(cell);
-    if (depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
+    if (albedo * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
     {
       shaped.push_back(cell);
     }

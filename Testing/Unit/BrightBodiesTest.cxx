@@ -52,12 +52,27 @@ TEST(BrightBodies, ByStrength)
   const std::vector<BrightBody> bodies = BodiesOf(scene);
   ASSERT_EQ(bodies.size(), 2U);
   const double all = 105.0 + 77 * 0.1;
-  EXPECT_NEAR(bodies[0].Share, 75.0 / all, 1e-6);
-  EXPECT_NEAR(bodies[1].Share, 30.0 / all, 1e-6);
-  EXPECT_LT(glm::length(bodies[0].Bounds.Lower - Vec3(7.5, 0, 0)), 1e-9);
-  EXPECT_LT(glm::length(bodies[0].Bounds.Upper - Vec3(8.5, 0.5, 0.5)), 1e-9);
-  EXPECT_LT(glm::length(bodies[1].Bounds.Lower - Vec3(1.0, 0, 0)), 1e-9);
-  EXPECT_LT(glm::length(bodies[1].Bounds.Upper - Vec3(1.5, 0.5, 0.5)), 1e-9);
+  EXPECT_NEAR(bodies[1].Share, 75.0 / all, 1e-6);
+  EXPECT_NEAR(bodies[0].Share, 30.0 / all, 1e-6);
+  EXPECT_LT(glm::length(bodies[1].Bounds.Lower - Vec3(7.5, 0, 0)), 1e-9);
+  EXPECT_LT(glm::length(bodies[1].Bounds.Upper - Vec3(8.5, 0.5, 0.5)), 1e-9);
+  EXPECT_LT(glm::length(bodies[0].Bounds.Lower - Vec3(1.0, 0, 0)), 1e-9);
+  EXPECT_LT(glm::length(bodies[0].Bounds.Upper - Vec3(1.5, 0.5, 0.5)), 1e-9);
+}
+
+// Of ten bodies the eight strongest, but all where they are alike.
+TEST(BrightBodies, NotTooMany)
+{
+  SceneDescription scene = Duct();
+  for (int body = 0; body < 10; ++body)
+  {
+    Ignite(scene, 2 * body, body < 4 ? 0.9F : 1.0F);
+  }
+  // The first four are alike: seven tenths of the light come from some of them, too.
+  EXPECT_EQ(BodiesOf(scene).size(), 10U);
+  Ignite(scene, 0, 0.95F);
+  Ignite(scene, 2, 0.95F);
+  EXPECT_EQ(BodiesOf(scene).size(), 8U);
 }
 
 // Cells at which a box around both is hardly larger than around each are one body.
