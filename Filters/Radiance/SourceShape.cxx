@@ -16,7 +16,8 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth of scattering across a cell below which a flat source errs by a thousandth at most.
+/// Optical depth of scattering across a cell below which a flat source errs by a thousandth at
+/// most.
 constexpr double ThinnestDepth = 0.05;
 /// Soot of a lower albedo is looked at as if it had this one: what little it sends on is the veil.
 constexpr double LeastAlbedo = 0.5;

@@ -80,8 +80,8 @@ TEST(Slab, DepthOne)
   CheckRows(1.0, 1.0, {0.0, 0.5, 0.9});
 }
 
-// Nothing is seen of light in black smoke, and lines carry what so large a plate sends out: it is to
-// be known as well as light that is seen.
+// Nothing is seen of light in black smoke, and lines carry what so large a plate sends out: it is
+// to be known as well as light that is seen.
 TEST(Slab, BlackSmoke)
 {
   CheckRows(5.0, 5.0, {0.0}, 15);
