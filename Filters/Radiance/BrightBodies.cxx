@@ -1,6 +1,6 @@
 #include "BrightBodies.h"
 
-#include "LightField.h"
+#include "FirstSource.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <numeric>
+#include <utility>
 
-#include <glm/gtc/constants.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace smokevis
 {
@@ -18,86 +21,97 @@ namespace smokevis
 namespace
 {
 
-constexpr double BrightShare = 0.7;
-/// With those that are about as strong as the last one: roundings must not choose among them.
+/// Roundings must not decide whether a cell more is needed for the share.
+constexpr double BrightShare = 0.7 * (1.0 - 1e-6);
 constexpr std::size_t MostBodies = 8;
-constexpr double AboutAsStrong = 0.999;
 /// Before those that fit into one box are joined: flames lie about in pieces.
 constexpr std::size_t MostParts = 64;
-/// Brightness is told to an eighth of its doubling, compared with the brightest cell, so that it
-/// does not hang on units.
-constexpr double StepsADoubling = 8.0;
+/// Bodies that are about as strong as one left out are left out: roundings must not choose.
+constexpr double AboutAsStrong = 0.999;
+/// How much darker a cell is than the brightest is told in eighths of halvings, up to 128 of these.
+constexpr double StepsAHalving = 8.0;
+constexpr std::uint16_t MostSteps = 1024;
+/// Of cells without a source, and of those that are not bright.
+constexpr std::uint16_t Dark = MostSteps + 1;
 
-/// What smoke emits and scatters of direct light.
-class FirstPower
+using Cells = tbb::blocked_range<std::size_t>;
+
+/// The same from any number of threads.
+template <class Value, class Add, class Join>
+Value Over(std::size_t cells, const Value& nothing, Add&& add, Join&& join)
 {
-public:
-  FirstPower(const Scene& scene, const LightField& field, int band)
-      : Smoke_(scene.Smoke()), Direct_(field.DirectFluence.data() + field.CellIndex(band, 0)),
-        Scatters_(scene.Albedo() * scene.ExtinctionScale(band)),
-        Emits_(4.0 * glm::pi<double>() * (1.0 - scene.Albedo()) * scene.ExtinctionScale(band))
-  {
-  }
-
-  /// Of a cell [lm/m3].
-  double PerVolume(std::int64_t cell) const
-  {
-    return this->Smoke_.Extinction(cell) * (this->Scatters_ * this->Direct_[cell] +
-                                             this->Emits_ * this->Smoke_.EmittedLuminance(cell));
-  }
-  /// Of a cell [lm].
-  double Of(std::int64_t cell) const
-  {
-    return this->PerVolume(cell) * this->Smoke_.OwnVolume(cell);
-  }
-
-private:
-  const Medium& Smoke_;
-  const float* Direct_;
-  double Scatters_, Emits_;
-};
-
-/// The brightest cells that together make BrightShare of the light.
-std::vector<bool> BrightCells(const FirstPower& power, std::size_t cells)
-{
-  double brightest = 0.0;
-  double all = 0.0;
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    if (const double own = power.Of(static_cast<std::int64_t>(cell)); own > 0.0)
+  return tbb::parallel_deterministic_reduce(
+    Cells(0, cells, 65536), nothing,
+    [&](const Cells& range, Value value)
     {
-      brightest = std::max(brightest, power.PerVolume(static_cast<std::int64_t>(cell)));
-      all += own;
-    }
-  }
-  const auto steps = [&](std::int64_t cell)
-  { return std::lround(StepsADoubling * std::log2(brightest / power.PerVolume(cell))); };
-  // Power by how many steps darker than the brightest cell it is.
-  std::map<long, double> powers;
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    if (const double own = power.Of(static_cast<std::int64_t>(cell)); own > 0.0)
-    {
-      powers[steps(static_cast<std::int64_t>(cell))] += own;
-    }
-  }
-  double sum = 0.0;
-  long most = 0;
-  for (auto step = powers.begin(); step != powers.end() && sum < BrightShare * all; ++step)
-  {
-    most = step->first;
-    sum += step->second;
-  }
-  std::vector<bool> bright(cells, false);
-  for (std::size_t i = 0; i < cells; ++i)
-  {
-    const auto cell = static_cast<std::int64_t>(i);
-    bright[i] = power.Of(cell) > 0.0 && steps(cell) <= most;
-  }
-  return bright;
+      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      {
+        add(value, cell);
+      }
+      return value;
+    },
+    join);
 }
 
-/// Leaves the strongest, so many at least, in the order that they are in.
+/// For each cell by how many steps it is darker than the brightest.
+std::vector<std::uint16_t> StepsOf(const FirstSource& source, std::size_t cells)
+{
+  const double brightest = Over(
+    cells, 0.0,
+    [&](double& most, std::size_t cell)
+    { most = std::max(most, source.PerVolume(static_cast<std::int64_t>(cell))); },
+    [](double a, double b) { return std::max(a, b); });
+  std::vector<std::uint16_t> steps(cells, Dark);
+  if (!(brightest > 0.0) || !std::isfinite(brightest))
+  {
+    return steps;
+  }
+  tbb::parallel_for(Cells(0, cells, 65536),
+    [&](const Cells& range)
+    {
+      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      {
+        const double own = source.PerVolume(static_cast<std::int64_t>(cell));
+        const double darker = StepsAHalving * std::log2(brightest / own);
+        if (own > 0.0 && darker < MostSteps)
+        {
+          steps[cell] = static_cast<std::uint16_t>(std::lround(darker));
+        }
+      }
+    });
+  return steps;
+}
+
+/// Leaves steps only to the brightest cells that together make BrightShare of the light.
+void KeepBright(const FirstSource& source, std::vector<std::uint16_t>& steps)
+{
+  const std::vector<double> powers = Over(
+    steps.size(), std::vector<double>(MostSteps + 1, 0.0),
+    [&](std::vector<double>& sums, std::size_t cell)
+    {
+      if (steps[cell] != Dark)
+      {
+        sums[steps[cell]] += source.OfCell(static_cast<std::int64_t>(cell));
+      }
+    },
+    [](std::vector<double> a, const std::vector<double>& b)
+    {
+      std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
+      return a;
+    });
+  const double wanted = BrightShare * std::accumulate(powers.begin(), powers.end(), 0.0);
+  std::uint16_t most = 0;
+  for (double sum = powers[0]; sum < wanted && most < MostSteps; sum += powers[most])
+  {
+    ++most;
+  }
+  for (std::uint16_t& step : steps)
+  {
+    step = step > most ? Dark : step;
+  }
+}
+
+/// Leaves the strongest, so many at most, in the order that they are in.
 void KeepStrongest(std::vector<BrightBody>& bodies, std::size_t count)
 {
   if (bodies.size() <= count)
@@ -109,29 +123,29 @@ void KeepStrongest(std::vector<BrightBody>& bodies, std::size_t count)
   {
     shares.push_back(body.Share);
   }
-  const auto last = shares.begin() + static_cast<std::ptrdiff_t>(count - 1);
-  std::nth_element(shares.begin(), last, shares.end(), std::greater<>());
+  const auto next = shares.begin() + static_cast<std::ptrdiff_t>(count);
+  std::nth_element(shares.begin(), next, shares.end(), std::greater<>());
   std::erase_if(
-    bodies, [least = AboutAsStrong * *last](const BrightBody& body) { return body.Share < least; });
+    bodies, [most = *next / AboutAsStrong](const BrightBody& body) { return body.Share <= most; });
 }
 
-/// Bright cells that touch each other, body by body, with their power as share.
+/// Bright cells that lie side by side, body by body, with their power as share.
 std::vector<BrightBody> Connected(
-  const Medium& smoke, const FirstPower& power, std::vector<bool> bright)
+  const Medium& smoke, const FirstSource& source, std::vector<std::uint16_t> steps)
 {
   std::vector<BrightBody> bodies;
   std::vector<std::int64_t> next;
-  for (std::size_t first = 0; first < bright.size(); ++first)
+  for (std::size_t first = 0; first < steps.size(); ++first)
   {
     BrightBody body;
     const auto take = [&](std::int64_t cell)
     {
-      if (cell >= 0 && bright[cell])
+      if (cell >= 0 && steps[cell] != Dark)
       {
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         body.Bounds.Add({smoke.CellCentre(cell) - half, smoke.CellCentre(cell) + half});
-        body.Share += power.Of(cell);
-        bright[cell] = false;
+        body.Share += source.OfCell(cell);
+        steps[cell] = Dark;
         next.push_back(cell);
       }
     };
@@ -155,11 +169,18 @@ std::vector<BrightBody> Connected(
 
 } // namespace
 
-std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field, int band)
+std::vector<BrightBody> BrightBodies(
+  const Scene& scene, const LightField& field, int band, const Box& outer)
 {
-  const FirstPower power(scene, field, band);
-  std::vector<BrightBody> bodies =
-    Connected(scene.Smoke(), power, BrightCells(power, scene.Smoke().Cells()));
+  const FirstSource source(scene, field, band);
+  const double whole = source.Whole(outer);
+  if (!(whole > 0.0) || !std::isfinite(whole))
+  {
+    return {};
+  }
+  std::vector<std::uint16_t> steps = StepsOf(source, scene.Smoke().Cells());
+  KeepBright(source, steps);
+  std::vector<BrightBody> bodies = Connected(scene.Smoke(), source, std::move(steps));
   KeepStrongest(bodies, MostParts);
   JoinWhereSmaller(
     bodies, [](const BrightBody& body) -> const Box& { return body.Bounds; },
@@ -169,16 +190,6 @@ std::vector<BrightBody> BrightBodies(const Scene& scene, const LightField& field
       body.Share += other.Share;
     });
   KeepStrongest(bodies, MostBodies);
-  double whole = 0.0;
-  for (std::size_t cell = 0; cell < scene.Smoke().Cells(); ++cell)
-  {
-    whole += power.Of(static_cast<std::int64_t>(cell));
-  }
-  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
-  {
-    whole += scene.PatchReflectance(side / 2)[band] * scene.ExposedArea(side / 2, side % 2) *
-             field.DirectIlluminance[field.PatchIndex(band, side / 2, side % 2)];
-  }
   for (BrightBody& body : bodies)
   {
     body.Share /= whole;

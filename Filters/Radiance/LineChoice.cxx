@@ -220,10 +220,12 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
   }
   const auto addThrough = [&](const Box& part, double wanted)
   {
-    const double lacking = wanted - lines.Meetings(part.Surface(), part);
+    // Other boxes hold it whole where only roundings stick out.
+    const Box core{part.Lower + margin, part.Upper - margin};
+    const double lacking = wanted - lines.Meetings(part.Surface(), core);
     if (lacking > 0.0)
     {
-      lines.AddInner(part, static_cast<std::size_t>(std::ceil(lacking)));
+      lines.AddInner(within(part), static_cast<std::size_t>(std::ceil(lacking)));
     }
   };
   for (std::size_t i = 1; i < groups.size(); ++i)
@@ -233,15 +235,14 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
       [](Box& part, const Box& other) { part.Add(other); });
     for (const Box& part : groups[i].Boxes)
     {
-      const Box own = within(part);
-      addThrough(own, groups[i].Density() * own.Surface());
+      addThrough(part, groups[i].Density() * part.Surface());
     }
   }
   const double fine = std::min(1.0, FineTolerance / tolerance);
   const double bright = BrightLines * fine * fine * static_cast<double>(mainLines);
-  for (const BrightBody& body : BrightBodies(scene, field, band))
+  for (const BrightBody& body : BrightBodies(scene, field, band, box))
   {
-    addThrough(within(body.Bounds), bright * body.Share);
+    addThrough(body.Bounds, bright * body.Share);
   }
   return lines;
 }

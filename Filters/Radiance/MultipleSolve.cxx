@@ -65,15 +65,9 @@ MultipleSolve::~MultipleSolve() = default;
 
 std::string MultipleSolve::WhyNone(int band) const
 {
-  const Medium& smoke = this->Scene_.Smoke();
   const EmitterSet& lights = this->Scene_.Lights();
-  bool sent = this->Scene_.Sky() > 0.0 || smoke.Emits() ||
-              (this->Scene_.Albedo() > 0.0 && smoke.MaximumExtinction() > 0.0F &&
-                this->Scene_.ExtinctionScale(band) > 0.0);
-  for (std::size_t patch = 0; patch < this->Field_.Patches && !sent; ++patch)
-  {
-    sent = this->Scene_.PatchReflectance(patch)[band] > 0.0;
-  }
+  bool sent =
+    this->Scene_.Sky() > 0.0 || this->Scene_.Smoke().Emits() || this->Scene_.SendsOn(band);
   for (std::size_t cell = 0; cell < lights.Cells().size() && !sent; ++cell)
   {
     sent = lights.LeftToLines(cell);

@@ -1,13 +1,13 @@
 #include "PowerBalance.h"
 
 #include "Errors.h"
+#include "FirstSource.h"
 #include "LightField.h"
 #include "Scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
 
 namespace smokevis
@@ -67,30 +67,7 @@ PowerBalance::PowerBalance(
     this->Reflectance_[side] = reflectance;
     this->HardlyLoses_ = this->HardlyLoses_ && (1.0 - reflectance <= SmallestLoss || !(area > 0.0));
   }
-  this->Source_ = this->FirstSource(field, band, outer);
-}
-
-double PowerBalance::FirstSource(const LightField& field, int band, const Box& outer) const
-{
-  const double albedo = this->Scene_.Albedo();
-  const double emits = 4.0 * glm::pi<double>() * (1.0 - albedo);
-  double power = 0.0;
-  for (std::size_t cell = 0; cell < this->Capture_.size(); ++cell)
-  {
-    power += this->Capture_[cell] * (albedo * field.DirectFluence[field.CellIndex(band, cell)] +
-                                      emits * this->Scene_.Smoke().EmittedLuminance(cell));
-  }
-  for (std::size_t side = 0; side < this->Area_.size(); ++side)
-  {
-    power += this->Reflectance_[side] * this->Area_[side] *
-             field.DirectIlluminance[field.PatchIndex(band, side / 2, side % 2)];
-  }
-  const EmitterSet& lights = this->Scene_.Lights();
-  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
-  {
-    power += lights.LeftToLines(cell) ? lights.CellFlux(cell, band) : 0.0;
-  }
-  return power + glm::pi<double>() * this->Scene_.Sky() * outer.Surface();
+  arena.execute([&] { this->Source_ = FirstSource(scene, field, band).Whole(outer); });
 }
 
 template <class Body> void PowerBalance::ForEach(std::size_t batches, Body&& body) const

@@ -70,7 +70,6 @@ private:
     double Spread = 0.0, OwnSpread = 0.0;
   };
 
-  double FirstSource(const LightField& field, int band, const Box& outer) const;
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
   void Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const;

@@ -231,4 +231,15 @@ std::vector<std::vector<Triangle>> TrianglesOfPatches(const Scene& scene)
   return patches;
 }
 
+bool Scene::SendsOn(int band) const
+{
+  bool any = this->Albedo() > 0.0 && this->Smoke().MaximumExtinction() > 0.0F &&
+             this->ExtinctionScale(band) > 0.0;
+  for (std::size_t patch = 0; patch < this->Patches() && !any; ++patch)
+  {
+    any = this->PatchReflectance(patch)[band] > 0.0;
+  }
+  return any;
+}
+
 } // namespace smokevis

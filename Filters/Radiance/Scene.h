@@ -61,6 +61,8 @@ public:
   double Albedo() const { return this->Description_.Albedo; }
   double Sky() const { return this->Description_.Sky; }
   double ExtinctionScale(int band) const { return this->Description_.ExtinctionScale[band]; }
+  /// Whether in a band smoke scatters or any surface reflects.
+  bool SendsOn(int band) const;
   /// Of the band that the smoke dims most.
   double LargestScale() const
   {

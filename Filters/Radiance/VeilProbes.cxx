@@ -24,21 +24,11 @@ constexpr double FaintestShare = 1e-7;
 /// than this share of the mean.
 constexpr double DarkShare = 0.1;
 
-bool AnythingSendsOn(const Scene& scene, int band)
-{
-  bool any = scene.Albedo() > 0.0;
-  for (std::size_t patch = 0; patch < scene.Patches() && !any; ++patch)
-  {
-    any = scene.PatchReflectance(patch)[band] > 0.0;
-  }
-  return any;
-}
-
 } // namespace
 
 VeilProbes::VeilProbes(
   const Scene& scene, const LightField& field, int band, std::uint64_t seed, Lines lines)
-    : Black_(!AnythingSendsOn(scene, band))
+    : Black_(!scene.SendsOn(band))
 {
   const EvenPoints points(Mix(seed) + 17);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -49,7 +39,7 @@ VeilProbes::VeilProbes(
     brightest = std::max(brightest, cell.Luminance[band]);
   }
   this->Floor_ = FaintestShare * brightest;
-  const bool anywhere = signs.empty() || lines == Lines::Anywhere;
+  const bool anywhere = this->Black_ || signs.empty() || lines == Lines::Anywhere;
   this->MeanShare_ = anywhere ? DarkShare : 0.0;
   const double size = glm::length(scene.Upper() - scene.Lower());
   for (int i = 0; i < MostProbes; ++i)

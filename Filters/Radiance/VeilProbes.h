@@ -12,7 +12,7 @@ namespace smokevis
 
 /// Lines of sight from random places to the scene's signs, or, without signs, in random directions.
 /// Where nothing sends light on, fluence and illuminance are all that is not seen directly: they
-/// are then watched as if all smoke were white and all surfaces too.
+/// are then watched anywhere, as if all smoke were white and all surfaces too.
 class VeilProbes
 {
 public:

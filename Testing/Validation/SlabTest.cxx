@@ -87,6 +87,19 @@ TEST(Slab, BlackSmoke)
   CheckRows(5.0, 5.0, {0.0}, 15);
 }
 
+// So is it where there is no smoke, before a wall that reflects nothing.
+TEST(Slab, ClearAirBeforeABlackWall)
+{
+  scenes::Slab slab = scenes::MakeSlab(5.0, 0.3, 15);
+  SmokeGrid& grid = slab.Description.Grids.front();
+  grid.Extinction.assign(grid.Extinction.size(), 0.0F);
+  const std::vector<std::size_t> patch = {slab.FarPatches.front()};
+  const Estimate through = Solved(slab.Description).Illuminance(patch, 0);
+  EXPECT_GT(through.Mean, 0.8);
+  EXPECT_LE(through.Mean, 1.0 + 3.0 * through.StandardError);
+  EXPECT_LE(through.StandardError, 0.01 * through.Mean);
+}
+
 // Layers of half a mean free path and of a whole one, inside which light falls off much: its course
 // there is told from layer to layer, to 1 and 3 %. Flat sources would let 6 and 19 % too much
 // through.

@@ -1,0 +1,53 @@
+#include "FirstSource.h"
+
+#include "LightField.h"
+#include "Scene.h"
+
+#include <cstddef>
+#include <functional>
+
+#include <glm/gtc/constants.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace smokevis
+{
+
+FirstSource::FirstSource(const Scene& scene, const LightField& field, int band)
+    : Scene_(scene), Field_(field), Band_(band), Smoke_(scene.Smoke()),
+      DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
+      Scatters_(scene.Albedo() * scene.ExtinctionScale(band)),
+      Emits_(4.0 * glm::pi<double>() * (1.0 - scene.Albedo()) * scene.ExtinctionScale(band))
+{
+}
+
+double FirstSource::Whole(const Box& outer) const
+{
+  // The same sums from any number of threads.
+  double power = tbb::parallel_deterministic_reduce(
+    tbb::blocked_range<std::size_t>(0, this->Smoke_.Cells(), 16384), 0.0,
+    [this](const tbb::blocked_range<std::size_t>& range, double sum)
+    {
+      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      {
+        sum += this->OfCell(static_cast<std::int64_t>(cell));
+      }
+      return sum;
+    },
+    std::plus<>());
+  const Scene& scene = this->Scene_;
+  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
+  {
+    power +=
+      scene.PatchReflectance(side / 2)[this->Band_] * scene.ExposedArea(side / 2, side % 2) *
+      this->Field_.DirectIlluminance[this->Field_.PatchIndex(this->Band_, side / 2, side % 2)];
+  }
+  const EmitterSet& lights = scene.Lights();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
+  }
+  return power + glm::pi<double>() * scene.Sky() * outer.Surface();
+}
+
+} // namespace smokevis
