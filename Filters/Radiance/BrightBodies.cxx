@@ -1,6 +1,7 @@
 #include "BrightBodies.h"
 
 #include "FirstSource.h"
+#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 namespace smokevis
 {
@@ -34,40 +34,20 @@ constexpr std::uint16_t MostSteps = 1024;
 /// Of cells without a source, and of those that are not bright.
 constexpr std::uint16_t Dark = MostSteps + 1;
 
-using Cells = tbb::blocked_range<std::size_t>;
-
-/// The same from any number of threads.
-template <class Value, class Add, class Join>
-Value Over(std::size_t cells, const Value& nothing, Add&& add, Join&& join)
-{
-  return tbb::parallel_deterministic_reduce(
-    Cells(0, cells, 65536), nothing,
-    [&](const Cells& range, Value value)
-    {
-      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
-      {
-        add(value, cell);
-      }
-      return value;
-    },
-    join);
-}
-
 /// For each cell by how many steps it is darker than the brightest.
 std::vector<std::uint16_t> StepsOf(const FirstSource& source, std::size_t cells)
 {
-  const double brightest = Over(
+  const double brightest = ReduceCells(
     cells, 0.0,
-    [&](double& most, std::size_t cell)
-    { most = std::max(most, source.PerVolume(static_cast<std::int64_t>(cell))); },
+    [&](double& most, std::int64_t cell) { most = std::max(most, source.PerVolume(cell)); },
     [](double a, double b) { return std::max(a, b); });
   std::vector<std::uint16_t> steps(cells, Dark);
   if (!(brightest > 0.0) || !std::isfinite(brightest))
   {
     return steps;
   }
-  tbb::parallel_for(Cells(0, cells, 65536),
-    [&](const Cells& range)
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 65536),
+    [&](const tbb::blocked_range<std::size_t>& range)
     {
       for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
       {
@@ -85,13 +65,13 @@ std::vector<std::uint16_t> StepsOf(const FirstSource& source, std::size_t cells)
 /// Leaves steps only to the brightest cells that together make BrightShare of the light.
 void KeepBright(const FirstSource& source, std::vector<std::uint16_t>& steps)
 {
-  const std::vector<double> powers = Over(
+  const std::vector<double> powers = ReduceCells(
     steps.size(), std::vector<double>(MostSteps + 1, 0.0),
-    [&](std::vector<double>& sums, std::size_t cell)
+    [&](std::vector<double>& sums, std::int64_t cell)
     {
       if (steps[cell] != Dark)
       {
-        sums[steps[cell]] += source.OfCell(static_cast<std::int64_t>(cell));
+        sums[steps[cell]] += source.OfCell(cell);
       }
     },
     [](std::vector<double> a, const std::vector<double>& b)
@@ -142,8 +122,7 @@ std::vector<BrightBody> Connected(
     {
       if (cell >= 0 && steps[cell] != Dark)
       {
-        const Vec3 half = 0.5 * smoke.CellSize(cell);
-        body.Bounds.Add({smoke.CellCentre(cell) - half, smoke.CellCentre(cell) + half});
+        body.Bounds.Add(smoke.CellBounds(cell));
         body.Share += source.OfCell(cell);
         steps[cell] = Dark;
         next.push_back(cell);

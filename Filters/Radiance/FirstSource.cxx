@@ -1,14 +1,13 @@
 #include "FirstSource.h"
 
 #include "LightField.h"
+#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <cstddef>
 #include <functional>
 
 #include <glm/gtc/constants.hpp>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 namespace smokevis
 {
@@ -23,18 +22,9 @@ FirstSource::FirstSource(const Scene& scene, const LightField& field, int band)
 
 double FirstSource::Whole(const Box& outer) const
 {
-  // The same sums from any number of threads.
-  double power = tbb::parallel_deterministic_reduce(
-    tbb::blocked_range<std::size_t>(0, this->Smoke_.Cells(), 16384), 0.0,
-    [this](const tbb::blocked_range<std::size_t>& range, double sum)
-    {
-      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
-      {
-        sum += this->OfCell(static_cast<std::int64_t>(cell));
-      }
-      return sum;
-    },
-    std::plus<>());
+  double power = ReduceCells(
+    this->Smoke_.Cells(), 0.0,
+    [this](double& sum, std::int64_t cell) { sum += this->OfCell(cell); }, std::plus<>());
   const Scene& scene = this->Scene_;
   for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
   {

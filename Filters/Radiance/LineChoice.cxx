@@ -74,14 +74,6 @@ double LinesForPatches(
            : 0.0;
 }
 
-/// Around a cell, or part of one, of its size.
-Box CellBounds(const Medium& smoke, std::int64_t cell)
-{
-  const Vec3 centre = smoke.CellCentre(cell);
-  const Vec3 half = 0.5 * smoke.CellSize(cell);
-  return {centre - half, centre + half};
-}
-
 /// The cells of at least some extinction coefficient.
 struct Body
 {
@@ -99,7 +91,7 @@ struct Body
       const double own = smoke.OwnVolume(cell);
       if (own > 0.0 && extinction >= least)
       {
-        this->Bounds.Add(CellBounds(smoke, cell));
+        this->Bounds.Add(smoke.CellBounds(cell));
         this->Capture += extinction * own;
         this->Squares += extinction * extinction * own;
       }
@@ -170,7 +162,7 @@ std::vector<Box> PatchBounds(const Scene& scene)
 
 double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t cell)
 {
-  const Box bounds = CellBounds(smoke, cell);
+  const Box bounds = smoke.CellBounds(cell);
   return lines.Meetings(bounds.Surface(), bounds);
 }
 

@@ -85,6 +85,12 @@ public:
   bool Covered(std::int64_t cell) const;
   /// Of a whole cell of a grid.
   Box BoxOf(std::int64_t cell) const;
+  /// Around a cell, or part of one, of its size.
+  Box CellBounds(std::int64_t cell) const
+  {
+    const Vec3 half = 0.5 * this->CellSize(cell);
+    return {this->CellCentre(cell) - half, this->CellCentre(cell) + half};
+  }
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
   /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it

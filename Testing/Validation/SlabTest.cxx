@@ -198,7 +198,7 @@ double HalfSpaceReflectance(const std::string& albedo)
 }
 
 // Of five mean free paths of soot nothing shows that a half-space would not, to 1e-4; layers of a
-// tenth of a mean free path take as much as the rest of 1e-3. Sources flat in each would send 0.4 %
+// tenth of a mean free path take as much as the rest of 1e-3. Sources flat in each would send 0.3 %
 // too little back.
 TEST(Slab, DeepSootIsAHalfSpace)
 {
