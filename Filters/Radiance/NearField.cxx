@@ -213,12 +213,12 @@ double NearField::EvenDepth(const Vec3& place, int band) const
 
 float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
 {
-  std::atomic<float>& kept = level.Values[level.Index(node, band)];
-  const float known = kept.load(std::memory_order_relaxed);
-  if (!std::isnan(known))
-  {
-    return known;
-  }
+  const float known = level.Values[level.Index(node, band)].load(std::memory_order_relaxed);
+  return std::isnan(known) ? this->FillNode(level, node, band) : known;
+}
+
+float NearField::FillNode(const Level& level, const std::array<int, 3>& node, int band) const
+{
   Vec3 place;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -228,15 +228,17 @@ float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, i
   const Vec3 point = this->FromPlate(place);
   const Spectrum fluence = this->Direct_.Fluence(this->Light_, point, true);
   const double angle = this->PlateAngle(point);
+  float asked = 0.0F;
   for (int each = 0; each < this->Scene_.Bands(); ++each)
   {
     const double ratio = angle > 0.0 ? fluence[each] / angle : 0.0;
     const double depth = this->EvenDepth(place, each);
-    const double value = level.Logarithms ? std::log(ratio) + depth : ratio * std::exp(depth);
-    level.Values[level.Index(node, each)].store(
-      static_cast<float>(value), std::memory_order_relaxed);
+    const auto value =
+      static_cast<float>(level.Logarithms ? std::log(ratio) + depth : ratio * std::exp(depth));
+    level.Values[level.Index(node, each)].store(value, std::memory_order_relaxed);
+    asked = each == band ? value : asked;
   }
-  return kept.load(std::memory_order_relaxed);
+  return asked;
 }
 
 double NearField::Away(const Vec3& place) const
