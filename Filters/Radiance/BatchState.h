@@ -35,6 +35,7 @@ struct BatchState
   int Sweeps = 0;
   WatchedLight Watched;
 
+  BatchState() = default;
   BatchState(std::size_t cells, std::size_t sides);
   /// Forgets the sums, not the latest estimate.
   void Restart();

@@ -21,14 +21,17 @@ constexpr double ProgressRate = 0.02;
 
 BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_t key, Team& team,
   tbb::task_arena& arena, Progress& progress, const ProgressSpan& span)
-    : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span)
+    : Sweep_(sweep), Key_(key), Team_(team), Arena_(arena), Progress_(progress), Span_(span),
+      States_(Batches)
 {
-  // A copy would lie in small pages.
-  this->States_.reserve(Batches);
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    this->States_.emplace_back(field.Cells, 2 * field.Patches);
-  }
+  // To come by their memory takes as long as a sweep through it.
+  this->Arena_.execute(
+    [&]
+    {
+      tbb::parallel_for(std::size_t{0}, this->States_.size(),
+        [&](std::size_t batch)
+        { this->States_[batch] = BatchState(field.Cells, 2 * field.Patches); });
+    });
   if (sweep.Blocks())
   {
     this->Completion_.emplace(*sweep.Blocks(), this->States_);

@@ -1,6 +1,7 @@
 #include "SourceShape.h"
 
 #include "DirectField.h"
+#include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
 
@@ -41,7 +42,9 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       shaped.push_back(cell);
     }
   }
+  ReserveInLargePages(shaped.size(), this->Cells_);
   this->Cells_.resize(shaped.size());
+  ReserveInLargePages(shaped.size(), this->Measures_);
   this->Measures_.resize(shaped.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, this->Cells_.size(), 1024),
     [&](const tbb::blocked_range<std::size_t>& range)
