@@ -204,8 +204,9 @@ private:
     const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders);
   /// Whether places in a box differ from its centre as they would before a point: that the light is
   /// no point matters as much at one of them as at another, then.
+  /// @param places learn what a point would send to them
   bool Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
-    const std::vector<GaussPlace>& places) const;
+    std::vector<GaussPlace>& places) const;
   /// Mean over a box before such a light.
   /// @param extinction mean along some way between the box and the light [1/m]
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,

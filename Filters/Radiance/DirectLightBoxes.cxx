@@ -20,6 +20,8 @@ struct DirectLight::GaussPlace
   double Weight;
   /// Optical depth at 633 nm between it and the light's centre, where that is known.
   double Depth = 0.0;
+  /// What a light that were a point would send there, over what it would send to the box's centre.
+  double Share = 0.0;
 };
 
 namespace
@@ -336,7 +338,7 @@ Spectrum DirectLight::GradedFluence(
 }
 
 bool DirectLight::Pointlike(const BoxLight& light, const Vec3& centre, const Vec3& size,
-  const std::vector<GaussPlace>& places) const
+  std::vector<GaussPlace>& places) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
@@ -344,8 +346,11 @@ bool DirectLight::Pointlike(const BoxLight& light, const Vec3& centre, const Vec
   return root.Radius * root.Law.Sharpness() < PathRatio * glm::length(from) && root.Plane() &&
          glm::dot(from, root.Normal) > glm::dot(glm::abs(root.Normal), size) &&
          std::all_of(places.begin(), places.end(),
-           [&](const GaussPlace& place)
-           { return SteadyShare * PointLight(root, place.Point - root.Centre) < atCentre; });
+           [&](GaussPlace& place)
+           {
+             place.Share = PointLight(root, place.Point - root.Centre) / atCentre;
+             return SteadyShare * place.Share < 1.0;
+           });
 }
 
 Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
@@ -354,11 +359,10 @@ Spectrum DirectLight::PointlikeMean(const BoxLight& light, const Vec3& centre, d
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Vec3 from = centre - root.Centre;
   const double depth = extinction * glm::length(from);
-  const double atCentre = PointLight(root, from);
   Spectrum mean{};
   for (const GaussPlace& place : places)
   {
-    const double weight = place.Weight * PointLight(root, place.Point - root.Centre) / atCentre;
+    const double weight = place.Weight * place.Share;
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
       mean[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * (place.Depth - depth));

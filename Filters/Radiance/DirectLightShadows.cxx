@@ -153,9 +153,9 @@ std::vector<Sight> DirectLight::SightsFrom(
   std::vector<std::size_t> ofLine;
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    const Vec3 size = smoke.CellSize(cells[i]);
-    const Vec3 place = smoke.CellCentre(cells[i]) + OffCentre * size;
-    if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(size))
+    const Box box = smoke.CellBounds(cells[i]);
+    const Vec3 place = box.Centre() + OffCentre * box.Size();
+    if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(box.Size()))
     {
       continue;
     }

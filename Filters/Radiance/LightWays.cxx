@@ -105,8 +105,8 @@ double LightWays::Extinction(std::int64_t cell) const
 
 CellWay LightWays::From(std::int64_t cell, const std::optional<double>& extinction) const
 {
-  CellWay way{
-    this->Smoke_.CellCentre(cell), this->Smoke_.CellSize(cell), this->Smoke_.Extinction(cell)};
+  const Box box = this->Smoke_.CellBounds(cell);
+  CellWay way{box.Centre(), box.Size(), this->Smoke_.Extinction(cell)};
   way.Distance = glm::length(this->Light_.Centre - way.Centre);
   way.Depth = way.Distance * (extinction ? *extinction : this->Extinction(cell));
   return way;

@@ -88,8 +88,9 @@ public:
   /// Around a cell, or part of one, of its size.
   Box CellBounds(std::int64_t cell) const
   {
-    const Vec3 half = 0.5 * this->CellSize(cell);
-    return {this->CellCentre(cell) - half, this->CellCentre(cell) + half};
+    const CellPart* const part = this->Parts_.Find(cell);
+    return part ? Box{part->Centre - 0.5 * part->Size, part->Centre + 0.5 * part->Size}
+                : this->BoxOf(cell);
   }
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
