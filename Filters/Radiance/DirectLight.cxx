@@ -36,6 +36,8 @@ constexpr double EvenDepth = 0.04;
 constexpr double StencilDepth = 1.0;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
+/// Those to its corners tell of all where they tell of that to its middle, to this optical depth.
+constexpr double ToldDepth = 0.002;
 
 int SplitsOf(const EmissionLaw& law)
 {
@@ -120,16 +122,41 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   ways.Corner = root.Corners[0];
   ways.Along = along / glm::dot(along, along);
   ways.Up = up / glm::dot(up, up);
-  for (int j = 0; j < 3; ++j)
+  auto& extinction = ways.Extinction;
+  const auto walk = [&](int i, int j)
   {
-    for (int i = 0; i < 3; ++i)
+    const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
+    const double distance = glm::length(to);
+    extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
+  };
+  for (const int j : {0, 2})
+  {
+    walk(0, j);
+    walk(2, j);
+  }
+  walk(1, 1);
+  const double even =
+    0.25 * (extinction[0][0] + extinction[0][2] + extinction[2][0] + extinction[2][2]);
+  const bool told = std::abs(extinction[1][1] - even) * glm::length(root.Centre - point) *
+                      this->Scene_.LargestScale() <
+                    ToldDepth;
+  for (const int side : {0, 2})
+  {
+    if (told)
     {
-      const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
-      const double distance = glm::length(to);
-      ways.Extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
-      ways.Least = std::min(ways.Least, ways.Extinction[j][i]);
-      ways.Most = std::max(ways.Most, ways.Extinction[j][i]);
+      extinction[side][1] = 0.5 * (extinction[side][0] + extinction[side][2]);
+      extinction[1][side] = 0.5 * (extinction[0][side] + extinction[2][side]);
     }
+    else
+    {
+      walk(1, side);
+      walk(side, 1);
+    }
+  }
+  for (const auto& row : extinction)
+  {
+    ways.Least = std::min({ways.Least, row[0], row[1], row[2]});
+    ways.Most = std::max({ways.Most, row[0], row[1], row[2]});
   }
   return ways;
 }
@@ -157,6 +184,16 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receive
   const double depth = this->Depth(receiver, group.Centre);
   const bool dark = depth * this->Scene_.SmallestScale() > DeepestDepth;
   return {depth / distance, dark ? 0.0 : this->Visible(group, receiver)};
+}
+
+double DirectLight::ChangeOver(const LightGroup& group, const Receiver& receiver) const
+{
+  const double change =
+    receiver.Close ? receiver.Close->Most * group.Radius +
+                       (receiver.Close->Most - receiver.Close->Least) *
+                         glm::length(group.Centre - receiver.Point)
+                   : this->Scene_.Smoke().MaximumExtinction() * group.Radius;
+  return change * this->Scene_.LargestScale();
 }
 
 void DirectLight::AddPoint(
@@ -195,11 +232,11 @@ void DirectLight::AddLeaf(
   const bool few = leaf.Radius < PathRatio * toCentre;
   // Where a shadow's edge crosses the leaf, what hides and what dims go together place by place.
   const bool parted = !few && path.Visible < 1.0;
-  // Two points an edge follow what changes little.
-  const double change = receiver.Close ? receiver.Close->Most * leaf.Radius +
-                                           (receiver.Close->Most - receiver.Close->Least) * toCentre
-                                       : this->Scene_.Smoke().MaximumExtinction() * leaf.Radius;
-  const bool thin = leaf.Law == EmissionLaw() && change * this->Scene_.LargestScale() < EvenDepth;
+  // Two points an edge follow what changes little, and more of it from afar: their error goes with
+  // the square of the leaf's size over its distance.
+  const double steep = std::min(1.0, leaf.Radius / (LeafRatio * toCentre));
+  const bool thin =
+    leaf.Law == EmissionLaw() && steep * this->ChangeOver(leaf, receiver) < EvenDepth;
   double weights = 0.0;
   Spectrum weighted{};
   const auto add = [&](double u, double v, double share, bool seen)
@@ -273,8 +310,7 @@ bool DirectLight::AddStencil(
   // Neither the plane of the plate nor the receiver's horizon may cut the group.
   if (!group.Stencil || glm::dot(centre, group.Normal) >= 0.0 ||
       (receiver.Normal && glm::dot(centre, *receiver.Normal) < group.Radius) ||
-      this->Scene_.Smoke().MaximumExtinction() * this->Scene_.LargestScale() * group.Radius >
-        StencilDepth)
+      this->ChangeOver(group, receiver) > StencilDepth)
   {
     return false;
   }
@@ -334,10 +370,8 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
                    std::abs(glm::dot(to, *receiver.Normal)) < group.Radius;
   Path own;
   // Where nothing but thin smoke lies before a Lambertian leaf, its closed form needs no parts.
-  const bool even =
-    leaf && receiver.Clear && !receiver.Normal && group.Law == EmissionLaw() &&
-    this->Scene_.Smoke().MaximumExtinction() * this->Scene_.LargestScale() * group.Radius <
-      EvenDepth;
+  const bool even = leaf && receiver.Clear && !receiver.Normal && group.Law == EmissionLaw() &&
+                    this->ChangeOver(group, receiver) < EvenDepth;
   const bool last = leaf && (splits == 0 || even);
   if (path == nullptr && (ratio < PathRatio || (leaf && steep < LeafRatio) || last))
   {
