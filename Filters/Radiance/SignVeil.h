@@ -6,6 +6,7 @@
 #include "View.h"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace smokevis
@@ -73,6 +74,12 @@ public:
   Lanes At(std::size_t place) const override;
 
 private:
+  /// What is added close to a plate of bars: known along their middles, and at their ends as a few
+  /// of them tell.
+  /// @param near of a place across the bars and along them, 0 to 1
+  void FillBars(
+    const PlateColumns& bars, const std::function<Lanes(double across, double along)>& near);
+
   const PlateColumns& Columns_;
   const PlateColumns& Rows_;
   /// Mean over each column of each row of what is added close to the plate.
