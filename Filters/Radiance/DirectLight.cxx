@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace smokevis
 {
@@ -36,8 +37,10 @@ constexpr double EvenDepth = 0.04;
 constexpr double StencilDepth = 1.0;
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
-/// Those to its corners tell of all where they tell of that to its middle, to this optical depth.
+/// Those to its corners tell of all where they tell of that to its middle, to this optical depth,
+/// and differ by no more than so much: else smoke may vary between them as well.
 constexpr double ToldDepth = 0.002;
+constexpr double AlikeDepth = 0.04;
 
 int SplitsOf(const EmissionLaw& law)
 {
@@ -135,11 +138,13 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     walk(2, j);
   }
   walk(1, 1);
-  const double even =
-    0.25 * (extinction[0][0] + extinction[0][2] + extinction[2][0] + extinction[2][2]);
-  const bool told = std::abs(extinction[1][1] - even) * glm::length(root.Centre - point) *
-                      this->Scene_.LargestScale() <
-                    ToldDepth;
+  const std::array<double, 4> corners = {
+    extinction[0][0], extinction[0][2], extinction[2][0], extinction[2][2]};
+  const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
+  const double even = 0.25 * std::accumulate(corners.begin(), corners.end(), 0.0);
+  const double scale = this->Scene_.LargestScale() * glm::length(root.Centre - point);
+  const bool told =
+    scale * std::abs(extinction[1][1] - even) < ToldDepth && scale * (*most - *least) < AlikeDepth;
   for (const int side : {0, 2})
   {
     if (told)
@@ -188,11 +193,10 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receive
 
 double DirectLight::ChangeOver(const LightGroup& group, const Receiver& receiver) const
 {
-  const double change =
-    receiver.Close ? receiver.Close->Most * group.Radius +
-                       (receiver.Close->Most - receiver.Close->Least) *
-                         glm::length(group.Centre - receiver.Point)
-                   : this->Scene_.Smoke().MaximumExtinction() * group.Radius;
+  const double change = receiver.Close ? receiver.Close->Most * group.Radius +
+                                           (receiver.Close->Most - receiver.Close->Least) *
+                                             glm::length(group.Centre - receiver.Point)
+                                       : this->Scene_.Smoke().MaximumExtinction() * group.Radius;
   return change * this->Scene_.LargestScale();
 }
 

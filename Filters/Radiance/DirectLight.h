@@ -127,7 +127,8 @@ private:
   /// Optical depth at 633 nm between the receiver and a place on the light.
   double Depth(const Receiver& receiver, const Vec3& place) const;
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
-  /// By how much ways to places of a group may differ in optical depth, of any band.
+  /// By how much ways to places of a group differ in optical depth, of any band: as those known
+  /// close to the plate do, else as they are longer or shorter in the thickest smoke.
   double ChangeOver(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;

@@ -66,6 +66,12 @@ double PlateColumns::Node(std::size_t column, int index) const
   return this->Ends[column] + width * Nodes2[index];
 }
 
+double PlateColumns::Between(std::size_t column, double t) const
+{
+  const double first = this->Node(column, 0);
+  return (t - first) / (this->Node(column, 1) - first);
+}
+
 Vec3 OnPlate(const Sign& sign, double u, double v)
 {
   return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +

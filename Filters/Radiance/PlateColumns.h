@@ -29,6 +29,8 @@ struct PlateColumns
   std::size_t Of(double t) const;
   /// The two Gauss points of a column.
   double Node(std::size_t column, int index) const;
+  /// Where a place lies between them, 0 at the first and 1 at the second.
+  double Between(std::size_t column, double t) const;
 };
 
 } // namespace smokevis

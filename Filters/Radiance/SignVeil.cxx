@@ -2,6 +2,7 @@
 
 #include "GaussNodes.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace smokevis
@@ -14,11 +15,7 @@ namespace
 /// error is below this share of the other.
 constexpr double BetterShare = 0.7;
 /// Cosine of the slant beyond which the way of an eye's rays close to a plate gets no longer.
-constexpr double LeastSlant = 0.2;
-/// Optical depth of scattering on that way below which a few bars of more than so many tell how the
-/// glow before them falls off along all: it adds a few hundredths of their luminance there.
-constexpr double FaintDepth = 0.1;
-constexpr std::size_t FewBars = 3;
+constexpr double LeastSlant = 0.25;
 
 } // namespace
 
@@ -48,95 +45,48 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   const PlateColumns& rows)
     : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
 {
-  const Scene& scene = view.TheScene();
-  // The pattern blurs over a distance of about its period, on a slant as far from the plate.
-  const double slant =
-    std::abs(glm::dot(glm::normalize(eye - OnPlate(sign, 0.5, 0.5)), sign.Normal));
-  const double reach = 2.0 *
-                       std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
-                         rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0])) /
-                       std::max(LeastSlant, slant);
-  double nearDepth = 0.0;
+  // The pattern blurs over a distance of about its period; aslant, rays are as close for longer.
+  const bool pattern = columns.Count() * rows.Count() > 1;
+  const double height =
+    2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+            rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+  const auto reachOf = [&](const Vec3& direction)
+  {
+    const double slant = std::abs(glm::dot(direction, sign.Normal));
+    return pattern ? height / std::max(LeastSlant, slant) : height;
+  };
   for (int j = 0; j < 3; ++j)
   {
     for (int i = 0; i < 3; ++i)
     {
       const Vec3 to = OnPlate(sign, Nodes3[i], Nodes3[j]) - eye;
       const double distance = glm::length(to);
-      const double end = std::max(0.0, distance - reach);
-      nearDepth =
-        std::max(nearDepth, scene.Smoke().OpticalDepth(eye, to / distance, end, distance));
+      const Vec3 direction = to / distance;
+      const double end = std::max(0.0, distance - reachOf(direction));
       this->Ways_.push_back(
-        {{to / distance, end, Weights3[i] * Weights3[j]}, this->Trace(to / distance, 0.0, end)});
+        {{direction, end, Weights3[i] * Weights3[j]}, this->Trace(direction, 0.0, end)});
     }
-  }
-  const auto near = [&](double u, double v)
-  {
-    const Vec3 to = OnPlate(sign, u, v) - eye;
-    const double distance = glm::length(to);
-    const RayLight light = this->Trace(to / distance, std::max(0.0, distance - reach), distance);
-    Lanes veil = light.VeilMultiple;
-    for (float& value : veil.Value)
-    {
-      value += static_cast<float>(light.VeilDirect);
-    }
-    return veil;
-  };
-  const bool bars = rows.Count() == 1 || columns.Count() == 1;
-  const PlateColumns& across = rows.Count() == 1 ? columns : rows;
-  if (bars && across.Count() > FewBars &&
-      scene.Albedo() * scene.ExtinctionScale(band) * nearDepth < FaintDepth)
-  {
-    this->FillBars(across, [&](double bar, double along)
-      { return &across == &columns ? near(bar, along) : near(along, bar); });
-    return;
   }
   this->Near_.resize(columns.Count() * rows.Count());
   for (std::size_t row = 0; row < rows.Count(); ++row)
   {
     for (std::size_t column = 0; column < columns.Count(); ++column)
     {
-      for (const int j : {0, 1})
+      for (std::size_t node = 0; node < Nodes; ++node)
       {
-        for (const int i : {0, 1})
+        const Vec3 to =
+          OnPlate(sign, columns.Node(column, node % 2), rows.Node(row, node / 2)) - eye;
+        const double distance = glm::length(to);
+        const Vec3 direction = to / distance;
+        const RayLight light =
+          this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance);
+        Lanes& veil = this->Near_[row * columns.Count() + column][node];
+        veil = light.VeilMultiple;
+        for (float& value : veil.Value)
         {
-          Add(this->Near_[row * columns.Count() + column],
-            near(columns.Node(column, i), rows.Node(row, j)), 0.25F);
+          value += static_cast<float>(light.VeilDirect);
         }
       }
-    }
-  }
-}
-
-void PlateVeil::FillBars(
-  const PlateColumns& bars, const std::function<Lanes(double across, double along)>& near)
-{
-  const std::size_t count = bars.Count();
-  this->Near_.resize(count);
-  std::vector<double> first(count);
-  for (std::size_t bar = 0; bar < count; ++bar)
-  {
-    const Lanes one = near(bars.Node(bar, 0), 0.5);
-    first[bar] = Mean(one);
-    Add(this->Near_[bar], one, 0.5F);
-    Add(this->Near_[bar], near(bars.Node(bar, 1), 0.5), 0.5F);
-  }
-  double middle = 0.0;
-  double whole = 0.0;
-  for (const std::size_t bar : {std::size_t{0}, count / 2, count - 2})
-  {
-    middle += first[bar];
-    for (const double along : Nodes2)
-    {
-      whole += 0.5 * Mean(near(bars.Node(bar, 0), along));
-    }
-  }
-  const double share = middle > 0.0 ? whole / middle : 1.0;
-  for (Lanes& mean : this->Near_)
-  {
-    for (float& value : mean.Value)
-    {
-      value *= static_cast<float>(share);
     }
   }
 }
@@ -146,7 +96,18 @@ Lanes PlateVeil::At(std::size_t place) const
   const glm::dvec2& at = this->Places_[place].OnPlate;
   const auto u = QuadraticWeights(at.x);
   const auto v = QuadraticWeights(at.y);
-  Lanes veil = this->Near_[this->Rows_.Of(at.y) * this->Columns_.Count() + this->Columns_.Of(at.x)];
+  const std::size_t column = this->Columns_.Of(at.x);
+  const std::size_t row = this->Rows_.Of(at.y);
+  // Linear through the nodes of the column and row: its mean over them stays theirs.
+  const double right = this->Columns_.Between(column, at.x);
+  const double upper = this->Rows_.Between(row, at.y);
+  Lanes veil;
+  for (std::size_t node = 0; node < Nodes; ++node)
+  {
+    const double share =
+      (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
+    Add(veil, this->Near_[row * this->Columns_.Count() + column][node], static_cast<float>(share));
+  }
   double steady = 0.0;
   for (int j = 0; j < 3; ++j)
   {

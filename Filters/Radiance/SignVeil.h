@@ -6,7 +6,7 @@
 #include "View.h"
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <vector>
 
 namespace smokevis
@@ -74,16 +74,13 @@ public:
   Lanes At(std::size_t place) const override;
 
 private:
-  /// What is added close to a plate of bars: known along their middles, and at their ends as a few
-  /// of them tell.
-  /// @param near of a place across the bars and along them, 0 to 1
-  void FillBars(
-    const PlateColumns& bars, const std::function<Lanes(double across, double along)>& near);
+  /// Of the two Gauss points of a column by those of a row.
+  static constexpr std::size_t Nodes = 4;
 
   const PlateColumns& Columns_;
   const PlateColumns& Rows_;
-  /// Mean over each column of each row of what is added close to the plate.
-  std::vector<Lanes> Near_;
+  /// What is added close to the plate, at the nodes of each column of each row.
+  std::vector<std::array<Lanes, Nodes>> Near_;
 };
 
 /// Veil before what shows of a plate that is partly hidden, a ray to each place: rays past what

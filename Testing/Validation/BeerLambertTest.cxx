@@ -145,7 +145,7 @@ TEST(BeerLambert, SignAtTheEdgeOfALayer)
 
 // Where smoke glows, what it adds grows where it dims a sign: the sign fades away with its
 // surroundings, and one as bright as the smoke shows nothing at all. The veil before a plate is
-// known along a few rays, which leaves 0.008.
+// known along a few rays, which leaves 0.006; aslant and close by, 0.5 % of a mean luminance.
 TEST(BeerLambert, SignBehindALayerThatGlows)
 {
   report::Head("Contrast of a sign behind the edge of a layer that glows");
@@ -160,16 +160,16 @@ TEST(BeerLambert, SignBehindALayerThatGlows)
       scene.Emitters =
         scenes::Barcode(centre, {-1, 0, 0}, {0, 0, 1}, 0.4, 0.2, whole ? 1 : 5, 200.0, 0);
       const Solved solved(scene);
-      for (const double x : {3.0, 9.0})
+      for (const Vec3& eye :
+        {Vec3(3, 1.5, 1.7), Vec3(9, 1.5, 1.7), Vec3(11.2, 0.2, 1.7), Vec3(11.5, 0.2, 1.7)})
       {
-        const Vec3 eye(x, 1.5, 1.7);
         const auto [contrast, mean] = SeenThrough(scene, eye, glow);
         const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
         const std::string name = "glow of " + std::to_string(static_cast<int>(glow)) + ", " +
                                  (whole ? "plate" : "bars") + ", from " +
-                                 std::to_string(12.0 - x).substr(0, 1) + " m off: ";
-        report::Absolute(name + "contrast", contrast, sign.Contrast, 0.01);
-        report::Relative(name + "mean", mean, sign.MeanLuminance, 0.005);
+                                 std::to_string(12.0 - eye.x).substr(0, 3) + " m off: ";
+        report::Absolute(name + "contrast", contrast, sign.Contrast, 0.008);
+        report::Relative(name + "mean", mean, sign.MeanLuminance, eye.x > 11.0 ? 0.01 : 0.005);
       }
     }
   }
