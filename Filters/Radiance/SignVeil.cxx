@@ -17,6 +17,17 @@ constexpr double BetterShare = 0.7;
 /// Cosine of the slant beyond which the way of an eye's rays close to a plate gets no longer.
 constexpr double LeastSlant = 0.25;
 
+/// The batches of all that the smoke adds along a ray [cd/m2].
+Lanes VeilOf(const RayLight& light)
+{
+  Lanes veil = light.VeilMultiple;
+  for (float& value : veil.Value)
+  {
+    value += static_cast<float>(light.VeilDirect);
+  }
+  return veil;
+}
+
 } // namespace
 
 std::size_t SignVeil::Gather()
@@ -80,12 +91,7 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
         const Vec3 direction = to / distance;
         const RayLight light =
           this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance);
-        Lanes& veil = this->Near_[row * columns.Count() + column][node];
-        veil = light.VeilMultiple;
-        for (float& value : veil.Value)
-        {
-          value += static_cast<float>(light.VeilDirect);
-        }
+        this->Near_[row * columns.Count() + column][node] = VeilOf(light);
       }
     }
   }
@@ -143,13 +149,7 @@ ShownVeil::ShownVeil(
 
 Lanes ShownVeil::At(std::size_t place) const
 {
-  const RayLight& light = this->Ways_[place].Light;
-  Lanes veil = light.VeilMultiple;
-  for (float& value : veil.Value)
-  {
-    value += static_cast<float>(light.VeilDirect);
-  }
-  return veil;
+  return VeilOf(this->Ways_[place].Light);
 }
 
 } // namespace smokevis

@@ -66,10 +66,10 @@ View Solve(double extinction, bool lie)
 /// Largest error of the mean veil before any bar, over that bar's.
 double LargestError(const View& view, const Vec3& eye)
 {
-  const Scene* const scene = &view.TheScene();
-  const Sign& sign = scene->Lights().Signs()[0];
-  const PlateColumns columns(scene->Lights(), sign, 0);
-  const PlateColumns rows(scene->Lights(), sign, 1);
+  const EmitterSet& lights = view.TheScene().Lights();
+  const Sign& sign = lights.Signs()[0];
+  const PlateColumns columns(lights, sign, 0);
+  const PlateColumns rows(lights, sign, 1);
   EXPECT_EQ(columns.Count() * rows.Count(), static_cast<std::size_t>(Bars));
   const bool stand = rows.Count() == 1;
   const PlateColumns& bars = stand ? columns : rows;
