@@ -18,6 +18,7 @@ namespace smokevis
 class NearField;
 class NearLights;
 class Scene;
+class ToldWays;
 struct LightGroup;
 
 /// Next-event estimation without noise: the solid angle of the emitter is exact, the transmittance
@@ -174,13 +175,24 @@ private:
   /// would get.
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
+  /// What cells of a block, and those around it, see of a light: each is asked once.
+  struct KeptSights
+  {
+    explicit KeptSights(const Medium::Block& block);
+
+    /// The cells whose sights are kept, and what is known of them.
+    Medium::Block Kept;
+    std::vector<std::optional<Sight>> Known;
+  };
   /// What cells see of a light from right beside their centres.
   std::vector<Sight> SightsFrom(const LightGroup& root, std::span<const std::int64_t> cells) const;
   /// Share of a light that is not hidden from the cells of a block: of most of them their centres
   /// tell, others are crossed by the edge of a shadow. Cells that walls cut, or that the light is
   /// near to, are not asked.
   /// @param roughly whether their centres do for all
-  std::vector<double> ShownIn(std::size_t light, const Medium::Block& block, bool roughly) const;
+  /// @param sights kept of a block that this one is part of
+  std::vector<double> ShownIn(
+    std::size_t light, const Medium::Block& block, bool roughly, KeptSights& sights) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
   /// its light gets behind it.
   static std::optional<Box> BeforePlate(const LightGroup& root, const Box& box);
@@ -217,35 +229,36 @@ private:
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
-  /// Ways from the cells of a block to a light that is far from it.
+  /// What is known of the ways from the cells of a block to a light.
   struct BlockWays
   {
-    /// Mean extinction along each, x fastest [1/m].
-    std::vector<double> Extinction;
-    /// How many were not walked, for the corners tell of them: they are linear between them.
-    std::size_t Told = 0;
+    /// Whether a few of them tell the rest.
+    bool Tell = false;
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.
-    double Share = 0.0;
+    double Share = std::numeric_limits<double>::infinity();
     /// Whether what is told may be off by more than differences from cell to cell would bear.
     bool Rough = false;
   };
   /// That bound; infinite where there is none.
-  /// @param extinction smallest mean along the ways [1/m]
+  /// @param asked the cells that count, of each cell of the block, x fastest
+  /// @param extinction smallest mean along the ways from these [1/m]
   /// @param rough error of their optical depths
-  double LargestShare(const LightGroup& root, const Medium::Block& block, double extinction,
-    double rough, const std::vector<Spectrum>& sums) const;
+  double LargestShare(const LightGroup& root, const Medium::Block& block,
+    const std::vector<bool>& asked, double extinction, double rough,
+    const std::vector<Spectrum>& sums) const;
   /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
   /// gets dark beside that face: its centre then tells nothing of what it gets.
   bool Enters(const LightGroup& root, const Medium::Block& block) const;
-  /// None where the light is not far. The less a light may add to what the cells hold, the rougher
-  /// its ways may be told.
-  /// @param whole whether ways are walked where they are not told; else there are none then
-  std::optional<BlockWays> WaysFrom(const LightWays& toLight, const Medium::Block& block,
-    bool whole, const std::vector<Spectrum>& sums) const;
-  /// The same for a block within the one that the ways to the light are kept of.
-  BlockWork AddBlockFluence(std::size_t light, const LightWays& toLight, const Medium::Block& block,
-    bool skips, std::vector<Spectrum>& sums) const;
+  /// Whether a light is so far from the cells of a block that the ways to it are alike.
+  bool FarFrom(const LightGroup& root, const Medium::Block& block) const;
+  /// Lets the corners of such a block tell of its ways, if they do. The less a light may add to
+  /// what the cells hold, the rougher its ways may be told.
+  BlockWays Tell(ToldWays& ways, const LightGroup& root, const Medium::Block& block,
+    const std::vector<Spectrum>& sums) const;
+  /// Adds the light to a block within the one that ways and sights are kept of.
+  BlockWork AddBlockFluence(std::size_t light, const LightWays& toLight, KeptSights& sights,
+    const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
   /// @param level how often it was split from a whole triangle
   void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,
     double weight, std::array<Spectrum, 2>& sum) const;

@@ -84,7 +84,8 @@ bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) con
 }
 
 double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
-  double extinction, double rough, const std::vector<Spectrum>& sums) const
+  const std::vector<bool>& asked, double extinction, double rough,
+  const std::vector<Spectrum>& sums) const
 {
   if (root.Law.Measured())
   {
@@ -113,7 +114,7 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
     [&](const std::array<int, 3>& place)
     {
       const std::int64_t cell = smoke.Cell(block, place);
-      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      for (int band = 0; asked[block.Number(place)] && band < this->Scene_.Bands(); ++band)
       {
         share = most[band] > 0.0 ? std::max(share, most[band] / sums[cell][band]) : share;
       }
@@ -123,10 +124,8 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
   return share < 1.0 && this->Enters(root, block) ? Infinity : share;
 }
 
-std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightWays& toLight,
-  const Medium::Block& block, bool whole, const std::vector<Spectrum>& sums) const
+bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) const
 {
-  const LightGroup& root = toLight.Light();
   const Medium& smoke = this->Scene_.Smoke();
   const std::int64_t first = smoke.Cell(block, {0, 0, 0});
   const Vec3 low = smoke.CellCentre(first);
@@ -134,43 +133,33 @@ std::optional<DirectLight::BlockWays> DirectLight::WaysFrom(const LightWays& toL
     smoke.CellCentre(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1}));
   const double distance =
     glm::length(root.Centre - 0.5 * (low + high)) - 0.5 * glm::length(high - low);
-  const Vec3 size = smoke.CellSize(first);
-  const double edge = LargestEdge(size) * root.Law.Sharpness();
-  if (!(root.Radius < PathRatio * distance) || glm::length(high - low) > BoxRatio * distance ||
-      edge > 0.5 * BoxRatio * distance)
+  const double edge = LargestEdge(smoke.CellSize(first)) * root.Law.Sharpness();
+  return root.Radius < PathRatio * distance && glm::length(high - low) <= BoxRatio * distance &&
+         edge <= 0.5 * BoxRatio * distance;
+}
+
+DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
+  const Medium::Block& block, const std::vector<Spectrum>& sums) const
+{
+  BlockWays told;
+  if (!ways.WalkCorners())
   {
-    return std::nullopt;
+    return told;
   }
-  ToldWays told(smoke, toLight, block);
-  BlockWays ways;
-  double allowed = 0.0;
-  bool tells = told.WalkCorners();
-  if (tells)
+  const std::vector<bool> all(block.Cells(), true);
+  const double share = this->LargestShare(root, block, all, ways.Least(), RoughWayTolerance, sums);
+  // A weak light may be off by as much of the whole as the strongest; but the share is a bound
+  // only where the corners do tell of what lies between.
+  const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / share));
+  told.Tell = ways.CornersTell(allowed);
+  if (told.Tell)
   {
-    ways.Share = this->LargestShare(root, block, told.Least(), RoughWayTolerance, sums);
-    // A weak light may be off by as much of the whole as the strongest; but the share is a bound
-    // only where the corners do tell of what lies between.
-    allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / ways.Share));
-    tells = told.CornersTell(allowed);
+    const bool odd = ways.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
+    told.Rough = ways.Told() > 0 && allowed > WayTolerance;
+    told.Share =
+      odd ? this->LargestShare(root, block, all, ways.Least(), RoughWayTolerance, sums) : share;
   }
-  if (!tells && !whole)
-  {
-    return std::nullopt;
-  }
-  if (!tells)
-  {
-    told.WalkRest();
-  }
-  const bool odd = !tells || told.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
-  ways.Told = told.Told();
-  ways.Rough = ways.Told > 0 && allowed > WayTolerance;
-  ways.Extinction = told.Extinction();
-  if (odd)
-  {
-    ways.Share =
-      this->LargestShare(root, block, told.Least(), tells ? RoughWayTolerance : 0.0, sums);
-  }
-  return ways;
+  return told;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(
@@ -178,19 +167,25 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
 {
   const LightWays toLight(
     this->Scene_.Smoke(), this->Scene_.LargestScale(), this->Scene_.Lights().Root(light), block);
-  return this->AddBlockFluence(light, toLight, block, skips, sums);
+  KeptSights sights(block);
+  return this->AddBlockFluence(light, toLight, sights, block, skips, sums);
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const LightWays& toLight,
-  const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+  KeptSights& sights, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
-  const bool parts = largest > ToldWays::SmallestBlock;
-  const std::optional<BlockWays> ways =
-    skips ? this->WaysFrom(toLight, block, !parts, sums) : std::nullopt;
+  const LightGroup& root = toLight.Light();
+  std::optional<ToldWays> ways;
+  BlockWays told;
+  if (skips && this->FarFrom(root, block))
+  {
+    ways.emplace(smoke, toLight, block);
+    told = this->Tell(*ways, root, block, sums);
+  }
   BlockWork work;
-  if (!ways && parts)
+  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
+  if (!told.Tell && largest > ToldWays::SmallestBlock)
   {
     const int half = (largest + 1) / 2;
     for (int part = 0; part < 8; ++part)
@@ -206,24 +201,31 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
       }
       if (!empty)
       {
-        const BlockWork own = this->AddBlockFluence(light, toLight, child, skips, sums);
+        const BlockWork own =
+          this->AddBlockFluence(light, toLight, sights, child, skips, sums);
         work.Told += own.Told;
         work.Negligible += own.Negligible;
       }
     }
     return work;
   }
-  if (ways && ways->Share < NegligibleShare)
+  if (told.Share < NegligibleShare)
   {
     work.Negligible = block.Cells();
     return work;
   }
-  const bool weak = ways && ways->Share < WeakShare;
-  const bool told = ways && ways->Told > 0;
-  const std::vector<Deepening> deepening =
-    toLight.DeepeningIn(block, ways ? ways->Extinction : std::vector<double>(),
-      told ? std::optional(WayTolerance) : std::nullopt, weak || (ways && ways->Rough));
-  const std::vector<double> shown = this->ShownIn(light, block, weak);
+  work.Told = ways ? ways->Told() : 0;
+  const std::vector<double> shown =
+    this->ShownIn(light, block, told.Share < WeakShare, sights);
+  // Of cells that see nothing of the light no ways are asked for, nor of those it is near to.
+  std::vector<bool> asked(block.Cells(), false);
+  const auto add = [&](std::int64_t cell, double share, const Spectrum& value)
+  {
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      sums[cell][band] += share * value[band];
+    }
+  };
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -234,21 +236,42 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
         return;
       }
       // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-      const std::optional<Spectrum> kept = this->KeptFluence(light, cell);
-      const double share = kept ? 1.0 : shown[block.Number(place)];
-      if (share == 0.0)
+      if (const std::optional<Spectrum> kept = this->KeptFluence(light, cell))
       {
+        add(cell, 1.0, *kept);
         return;
       }
-      const Spectrum value = kept ? *kept
-                                  : this->CellFluence({light, cell, deepening[block.Number(place)],
-                                      ways.has_value(), weak});
-      for (int band = 0; band < this->Scene_.Bands(); ++band)
+      asked[block.Number(place)] = shown[block.Number(place)] > 0.0;
+    });
+  if (std::none_of(asked.begin(), asked.end(), [](bool each) { return each; }))
+  {
+    return work;
+  }
+  if (ways && !told.Tell)
+  {
+    ways->Walk(asked);
+    told.Share = this->LargestShare(root, block, asked, ways->Least(), 0.0, sums);
+    if (told.Share < NegligibleShare)
+    {
+      work.Negligible = block.Cells();
+      return work;
+    }
+  }
+  const bool weak = told.Share < WeakShare;
+  const std::vector<Deepening> deepening =
+    toLight.DeepeningIn(block, asked, ways ? ways->Extinction() : std::vector<double>(),
+      work.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || told.Rough);
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::size_t number = block.Number(place);
+      if (asked[number])
       {
-        sums[cell][band] += share * value[band];
+        const std::int64_t cell = smoke.Cell(block, place);
+        add(cell, shown[number],
+          this->CellFluence({light, cell, deepening[number], ways.has_value(), weak}));
       }
     });
-  work.Told = ways ? ways->Told : 0;
   return work;
 }
 

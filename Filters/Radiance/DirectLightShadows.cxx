@@ -177,15 +177,38 @@ std::vector<Sight> DirectLight::SightsFrom(
   return sights;
 }
 
+DirectLight::KeptSights::KeptSights(const Medium::Block& block) : Kept(block)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Kept.First[axis] -= 1;
+    this->Kept.Size[axis] += 2;
+  }
+  this->Known.resize(this->Kept.Cells());
+}
+
 std::vector<double> DirectLight::ShownIn(
-  std::size_t light, const Medium::Block& block, bool roughly) const
+  std::size_t light, const Medium::Block& block, bool roughly, KeptSights& known) const
 {
   const Medium& smoke = this->Scene_.Smoke();
+  constexpr std::size_t None = std::numeric_limits<std::size_t>::max();
+  // The cells of the block, then those across their faces that are not among them; and where among
+  // what is kept they are, if they are there.
   std::vector<std::int64_t> cells;
+  std::vector<std::size_t> kept;
+  const auto take = [&](const std::array<int, 3>& place, std::int64_t cell)
+  {
+    std::array<int, 3> within;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      within[axis] = block.First[axis] + place[axis] - known.Kept.First[axis];
+    }
+    cells.push_back(cell);
+    kept.push_back(smoke.Cell(block, place) == cell ? known.Kept.Number(within) : None);
+  };
   block.ForEachCell(
-    [&](const std::array<int, 3>& place) { cells.push_back(smoke.Cell(block, place)); });
+    [&](const std::array<int, 3>& place) { take(place, smoke.Cell(block, place)); });
   // Of each cell of the block, where among them those across its faces are.
-  constexpr std::size_t NoCell = std::numeric_limits<std::size_t>::max();
   std::vector<std::array<std::size_t, 6>> beside(roughly ? 0 : block.Cells());
   if (!roughly)
   {
@@ -199,19 +222,41 @@ std::vector<double> DirectLight::ShownIn(
           next[axis] += face % 2 == 0 ? -1 : 1;
           const std::int64_t other = smoke.Neighbour(block, place, axis, face % 2);
           std::size_t& number = beside[block.Number(place)][face];
-          number = other < 0 ? NoCell : cells.size();
+          number = other < 0 ? None : cells.size();
           if (next[axis] >= 0 && next[axis] < block.Size[axis] && smoke.Cell(block, next) == other)
           {
             number = block.Number(next);
           }
           else if (other >= 0)
           {
-            cells.push_back(other);
+            take(next, other);
           }
         }
       });
   }
-  const std::vector<Sight> sights = this->SightsFrom(this->Scene_.Lights().Root(light), cells);
+  std::vector<Sight> sights(cells.size());
+  std::vector<std::int64_t> unknown;
+  std::vector<std::size_t> ofUnknown;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    if (kept[i] != None && known.Known[kept[i]])
+    {
+      sights[i] = *known.Known[kept[i]];
+      continue;
+    }
+    unknown.push_back(cells[i]);
+    ofUnknown.push_back(i);
+  }
+  const std::vector<Sight> answers = this->SightsFrom(this->Scene_.Lights().Root(light), unknown);
+  for (std::size_t answer = 0; answer < answers.size(); ++answer)
+  {
+    const std::size_t i = ofUnknown[answer];
+    sights[i] = answers[answer];
+    if (kept[i] != None)
+    {
+      known.Known[kept[i]] = sights[i];
+    }
+  }
   std::vector<double> shares;
   shares.reserve(block.Cells());
   for (std::size_t cell = 0; cell < block.Cells(); ++cell)
@@ -220,7 +265,7 @@ std::vector<double> DirectLight::ShownIn(
     // of the light.
     const auto differs = [&](std::size_t other)
     {
-      return other != NoCell && sights[other] != sights[cell] &&
+      return other != None && sights[other] != sights[cell] &&
              this->Scene_.Shapes().Visible(
                smoke.CellCentre(cells[cell]), smoke.CellCentre(cells[other]));
     };

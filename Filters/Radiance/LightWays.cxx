@@ -174,31 +174,41 @@ Deepening LightWays::DeepeningOf(std::int64_t cell) const
 }
 
 std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
-  const std::vector<double>& extinction, const std::optional<double>& allowed, bool roughly) const
+  const std::vector<bool>& asked, const std::vector<double>& extinction,
+  const std::optional<double>& allowed, bool roughly) const
 {
-  std::vector<CellWay> ways;
-  ways.reserve(block.Cells());
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
+  // The ways from its cells, once they are asked for.
+  std::vector<std::optional<CellWay>> ways(block.Cells());
+  const auto wayFrom = [&](const std::array<int, 3>& place) -> const CellWay&
+  {
+    const std::size_t number = block.Number(place);
+    if (!ways[number])
     {
-      ways.push_back(this->From(this->Smoke_.Cell(block, place),
-        extinction.empty() ? this->Extinction(block, place) : extinction[ways.size()]));
-    });
-  // The layers of cells across the block's faces, once they are asked for.
+      const bool known = !extinction.empty() && !std::isnan(extinction[number]);
+      ways[number] = this->From(this->Smoke_.Cell(block, place),
+        known ? extinction[number] : this->Extinction(block, place));
+    }
+    return *ways[number];
+  };
+  // The layers of cells across the block's faces.
   std::array<std::optional<LayerWays>, 6> layers;
-  std::vector<Deepening> result;
-  result.reserve(ways.size());
+  std::vector<Deepening> result(block.Cells());
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
-      const CellWay& way = ways[result.size()];
+      Deepening& deepening = result[block.Number(place)];
+      if (!asked[block.Number(place)])
+      {
+        return;
+      }
+      const CellWay& way = wayFrom(place);
       if (roughly)
       {
-        result.push_back(Deepening::Even(way, this->Light_.Centre));
+        deepening = Deepening::Even(way, this->Light_.Centre);
         return;
       }
       const std::int64_t cell = this->Smoke_.Cell(block, place);
-      result.push_back(this->Around(way,
+      deepening = this->Around(way,
         [&](int axis, int side) -> std::optional<CellWay>
         {
           std::array<int, 3> other = place;
@@ -210,7 +220,7 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
                               this->Smoke_.Cell(block, other) ||
                             this->Smoke_.Covered(cell)))
           {
-            return ways[block.Number(other)];
+            return wayFrom(other);
           }
           std::optional<LayerWays>& layer = layers[2 * axis + side];
           if (outside && !layer)
@@ -220,7 +230,7 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
           return this->FromBeside(cell, way, axis, side,
             [&](std::int64_t beside)
             { return outside ? layer->Extinction(place, beside) : std::optional<double>(); });
-        }));
+        });
     });
   return result;
 }

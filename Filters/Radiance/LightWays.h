@@ -35,12 +35,13 @@ public:
   double Extinction(const Medium::Block& block, const std::array<int, 3>& place) const;
   /// Of ways around the centre of a cell.
   Deepening DeepeningOf(std::int64_t cell) const;
-  /// The same of all cells of a block.
-  /// @param extinction means along the ways from its cells [1/m]; empty: not known
+  /// The same of the cells of a block that are asked for.
+  /// @param asked of each cell of the block, x fastest
+  /// @param extinction means along the ways from its cells [1/m]; empty, or NaN: not known
   /// @param allowed by how much optical depths of ways from cells around the block may be off,
   /// where a few of them tell the rest; none: all are walked
   /// @param roughly whether it will do to take smoke for even
-  std::vector<Deepening> DeepeningIn(const Medium::Block& block,
+  std::vector<Deepening> DeepeningIn(const Medium::Block& block, const std::vector<bool>& asked,
     const std::vector<double>& extinction, const std::optional<double>& allowed,
     bool roughly) const;
 

@@ -134,9 +134,16 @@ bool ToldWays::TellRest(double odd)
   return any;
 }
 
-void ToldWays::WalkRest()
+void ToldWays::Walk(const std::vector<bool>& asked)
 {
-  this->Block_.ForEachCell([this](const std::array<int, 3>& place) { this->Walk(place); });
+  this->Block_.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      if (asked[this->Block_.Number(place)])
+      {
+        this->Walk(place);
+      }
+    });
 }
 
 double ToldWays::Least() const

@@ -33,7 +33,9 @@ public:
   /// whether there are any.
   /// @param odd optical depth along an edge of a cell by which its smoke must differ, at least
   bool TellRest(double odd);
-  void WalkRest();
+  /// Walks the ways from the cells that are asked for.
+  /// @param asked of each cell of the block, x fastest
+  void Walk(const std::vector<bool>& asked);
 
   /// Mean extinction along each way at 633 nm, x fastest; NaN: not known [1/m].
   const std::vector<double>& Extinction() const { return this->Extinction_; }
