@@ -17,11 +17,8 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth across a cell below which its light is flat enough, that of the pieces that
-/// thicker ones are cut into, and most pieces of one.
+/// Optical depth across a cell below which its light is flat enough.
 constexpr double FlatDepth = 0.41;
-constexpr double PieceDepth = 0.5;
-constexpr int MostPieces = 8;
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
 
@@ -102,9 +99,9 @@ void DirectField::FindVarying()
       const std::size_t index = band * this->Cells_ + i;
       const int near = this->Lights_->Place(cell);
       const bool close = near >= 0 && this->Lights_->Cells()[near].Close;
-      // In the thickest cells pieces would not follow the light; means keep the balance of power.
+      // In the thickest cells parts would not follow the light; means keep the balance of power.
       if (this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
-          depth < MostPieces * PieceDepth)
+          depth < MostParts * PartDepth)
       {
         this->Variation_[index] = depth > FlatDepth ? Variation::Thick
                                   : close           ? Variation::Close
@@ -112,23 +109,6 @@ void DirectField::FindVarying()
       }
     }
   }
-}
-
-int DirectField::Pieces(std::int64_t cell, double length, int band) const
-{
-  // Thick pieces are cut: the source is flat in each.
-  const double depth =
-    this->Scene_.Smoke().Extinction(cell) * this->Scene_.ExtinctionScale(band) * length;
-  return std::clamp(static_cast<int>(std::ceil(depth / PieceDepth)), 1, MostPieces);
-}
-
-double DirectField::PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,
-  double begin, double end, double place, int band) const
-{
-  const double smooth = this->Smooth(cell, origin + 0.5 * (begin + end) * direction, band);
-  return this->Near(cell)
-           ? smooth + this->NearFluence(cell, origin, direction, begin, end, place, band)
-           : smooth;
 }
 
 double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction,

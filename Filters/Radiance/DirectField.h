@@ -7,6 +7,8 @@
 #include "LightField.h"
 #include "NearLights.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +38,12 @@ public:
     const double mean = this->Means_[band * this->Cells_ + cell];
     return mean > 0.0 ? mean * this->Shapes_[band].Emerging(cell, begin, step, depth) : 0.0;
   }
+  /// Has the processor fetch what these read.
+  void Fetch(std::int64_t cell, int band) const
+  {
+    __builtin_prefetch(&this->Means_[band * this->Cells_ + cell]);
+    this->Shapes_[band].Fetch(cell);
+  }
   /// Whether the direct fluence varies inside a cell by more than a flat source may.
   bool Varies(std::int64_t cell, int band) const
   {
@@ -44,18 +52,24 @@ public:
   }
   /// Calls visit(length, fluence) for the parts that a piece of a ray is cut into inside a cell
   /// where the direct fluence varies, with an estimate of the mean direct fluence of each [lx].
+  /// @param depth of the piece in the band
   /// @param place which of the near lights' fluence is taken in each part and where, 0 to 1; the
   /// mean over uniform places is that of all
   template <class Visit>
   void ForEachPart(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, double place, int band, Visit&& visit) const
+    double end, double depth, double place, int band, Visit&& visit) const
   {
-    const int parts = this->Pieces(cell, end - begin, band);
+    const int parts = Parts(depth);
     for (int part = 0; part < parts; ++part)
     {
       const double from = begin + (end - begin) * part / parts;
       const double to = begin + (end - begin) * (part + 1) / parts;
-      visit(to - from, this->PieceFluence(cell, origin, direction, from, to, place, band));
+      double fluence = this->Smooth(cell, origin + 0.5 * (from + to) * direction, band);
+      if (this->Near(cell))
+      {
+        fluence += this->NearFluence(cell, origin, direction, from, to, place, band);
+      }
+      visit(to - from, fluence);
     }
   }
   bool Near(std::int64_t cell) const { return this->Lights_ && this->Lights_->Place(cell) >= 0; }
@@ -71,13 +85,20 @@ public:
     double end, double extinction, int band) const;
 
 private:
+  /// Optical depth of the parts that thick pieces are cut into, and most parts of one.
+  static constexpr double PartDepth = 0.5;
+  static constexpr int MostParts = 8;
+
   /// Takes the near lights from the means of the cells that they are near to.
   void FindOthers();
   void FindVarying();
-  /// Parts that a piece of a ray of some length in a cell is cut into.
-  int Pieces(std::int64_t cell, double length, int band) const;
-  double PieceFluence(std::int64_t cell, const Vec3& origin, const Vec3& direction, double begin,
-    double end, double place, int band) const;
+  /// Parts that a piece of a ray is cut into: the source is flat in each.
+  static int Parts(double depth)
+  {
+    return depth > PartDepth
+             ? std::min(MostParts, static_cast<int>(std::ceil(depth / PartDepth)))
+             : 1;
+  }
 
   const Scene& Scene_;
   const LightField& Field_;

@@ -92,17 +92,11 @@ double DirectLight::Visible(const LightGroup& group, const Receiver& receiver) c
 
 double DirectLight::Ways::At(const Vec3& place) const
 {
-  const auto u = QuadraticWeights(glm::dot(place - this->Corner, this->Along));
-  const auto v = QuadraticWeights(glm::dot(place - this->Corner, this->Up));
-  double sum = 0.0;
-  for (int j = 0; j < 3; ++j)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      sum += u[i] * v[j] * this->Extinction[j][i];
-    }
-  }
-  return std::max(0.0, sum);
+  const double u = glm::dot(place - this->Corner, this->Along);
+  const double v = glm::dot(place - this->Corner, this->Up);
+  const auto along = [u](const std::array<double, 3>& of) { return of[0] + u * (of[1] + u * of[2]); };
+  return std::max(0.0, along(this->Factors[0]) +
+                         v * (along(this->Factors[1]) + v * along(this->Factors[2])));
 }
 
 std::optional<DirectLight::Ways> DirectLight::WaysTo(
@@ -125,7 +119,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   ways.Corner = root.Corners[0];
   ways.Along = along / glm::dot(along, along);
   ways.Up = up / glm::dot(up, up);
-  auto& extinction = ways.Extinction;
+  std::array<std::array<double, 3>, 3> extinction;
   const auto walk = [&](int i, int j)
   {
     const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
@@ -158,10 +152,21 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
       walk(side, 1);
     }
   }
-  for (const auto& row : extinction)
+  std::array<std::array<double, 3>, 3> rows;
+  for (int j = 0; j < 3; ++j)
   {
+    const std::array<double, 3>& row = extinction[j];
     ways.Least = std::min({ways.Least, row[0], row[1], row[2]});
     ways.Most = std::max({ways.Most, row[0], row[1], row[2]});
+    rows[j] = QuadraticFactors(row);
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::array<double, 3> column = QuadraticFactors({rows[0][i], rows[1][i], rows[2][i]});
+    for (int j = 0; j < 3; ++j)
+    {
+      ways.Factors[j][i] = column[j];
+    }
   }
   return ways;
 }

@@ -15,6 +15,7 @@
 namespace smokevis
 {
 
+class ClearBorders;
 class NearField;
 class NearLights;
 class Scene;
@@ -55,11 +56,12 @@ public:
   };
   /// Adds a light's mean fluence in the cells of a block [lx]. Ways from afar to neighbouring cells
   /// are much the same: where a few of them tell the rest, they do.
+  /// @param borders of the block
   /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
   /// sums hold bounds what is negligible
   /// @param skips whether ways are told and negligible lights left out
-  BlockWork AddBlockFluence(
-    std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
+  BlockWork AddBlockFluence(std::size_t light, const ClearBorders& borders, bool skips,
+    std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const Triangle& corners, const Vec3& normal) const;
@@ -93,8 +95,9 @@ private:
     Vec3 Corner{0.0};
     /// Edges of the plate over the squares of their lengths.
     Vec3 Along{0.0}, Up{0.0};
-    std::array<std::array<double, 3>, 3> Extinction{};
-    /// The smallest and the largest of them.
+    /// Factors[j][i] is that of v^j u^i, where u and v are shares of the edges.
+    std::array<std::array<double, 3>, 3> Factors{};
+    /// The smallest and the largest of the nine.
     double Least = std::numeric_limits<double>::infinity();
     double Most = 0.0;
 
@@ -244,21 +247,29 @@ private:
   /// @param asked the cells that count, of each cell of the block, x fastest
   /// @param extinction smallest mean along the ways from these [1/m]
   /// @param rough error of their optical depths
-  double LargestShare(const LightGroup& root, const Medium::Block& block,
-    const std::vector<bool>& asked, double extinction, double rough,
+  double LargestShare(const LightGroup& root, const ClearBorders& borders,
+    const Medium::Block& block, const std::vector<bool>& asked, double extinction, double rough,
     const std::vector<Spectrum>& sums) const;
   /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
   /// gets dark beside that face: its centre then tells nothing of what it gets.
-  bool Enters(const LightGroup& root, const Medium::Block& block) const;
+  bool Enters(
+    const LightGroup& root, const ClearBorders& borders, const Medium::Block& block) const;
   /// Whether a light is so far from the cells of a block that the ways to it are alike.
   bool FarFrom(const LightGroup& root, const Medium::Block& block) const;
   /// Lets the corners of such a block tell of its ways, if they do. The less a light may add to
   /// what the cells hold, the rougher its ways may be told.
-  BlockWays Tell(ToldWays& ways, const LightGroup& root, const Medium::Block& block,
-    const std::vector<Spectrum>& sums) const;
-  /// Adds the light to a block within the one that ways and sights are kept of.
-  BlockWork AddBlockFluence(std::size_t light, const LightWays& toLight, KeptSights& sights,
-    const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const;
+  BlockWays Tell(ToldWays& ways, const LightGroup& root, const ClearBorders& borders,
+    const Medium::Block& block, const std::vector<Spectrum>& sums) const;
+  /// What is known of a block and right around it, for one light.
+  struct Known
+  {
+    const ClearBorders& Borders;
+    LightWays Ways;
+    KeptSights Sights;
+  };
+  /// Adds the light to a block within that one.
+  BlockWork AddBlockFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
+    std::vector<Spectrum>& sums) const;
   /// @param level how often it was split from a whole triangle
   void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,
     double weight, std::array<Spectrum, 2>& sum) const;

@@ -1,6 +1,7 @@
 // DirectLight's part for blocks of smoke cells, which share the ways to a light.
 #include "DirectLight.h"
 
+#include "ClearBorders.h"
 #include "Scene.h"
 #include "ToldWays.h"
 
@@ -30,61 +31,44 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-bool DirectLight::Enters(const LightGroup& root, const Medium::Block& block) const
+bool DirectLight::Enters(
+  const LightGroup& root, const ClearBorders& borders, const Medium::Block& block) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  // Where the cells' faces lie along each axis, and the light reaches.
-  std::array<std::vector<Box>, 3> rows;
+  // Where the light reaches.
   Box light{root.Corners[0], root.Corners[0]};
   for (const Vec3& corner : root.Corners)
   {
     light.Add({corner, corner});
   }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::array<int, 3> place{};
-    for (; place[axis] < block.Size[axis]; ++place[axis])
-    {
-      rows[axis].push_back(smoke.BoxOf(smoke.Cell(block, place)));
-    }
-  }
   bool enters = false;
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
-      const std::int64_t cell = smoke.Cell(block, place);
-      const double extinction = smoke.Extinction(cell);
-      if (enters || !(extinction > 0.0))
+      if (enters || !borders.Any(block, place))
       {
         return;
       }
-      Box own;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const Box& row = rows[axis][place[axis]];
-        own.Lower[axis] = row.Lower[axis];
-        own.Upper[axis] = row.Upper[axis];
-      }
+      const std::int64_t cell = smoke.Cell(block, place);
+      const Box own = smoke.BoxOf(cell);
       const Vec3 way = own.Centre() - root.Centre;
-      const Vec3 depth = extinction * this->Scene_.LargestScale() * glm::length(way) * own.Size();
+      const Vec3 depth =
+        smoke.Extinction(cell) * this->Scene_.LargestScale() * glm::length(way) * own.Size();
       for (int axis = 0; axis < 3 && !enters; ++axis)
       {
         // How much deeper the ways get from the one face to the other.
         const int side = way[axis] > 0.0 ? 0 : 1;
         const bool beyond =
           side == 0 ? light.Lower[axis] < own.Lower[axis] : light.Upper[axis] > own.Upper[axis];
-        if (beyond && depth[axis] > FlatDepth * std::abs(way[axis]))
-        {
-          const std::int64_t before = smoke.Neighbour(cell, axis, side);
-          enters = Deepening::ClearBefore(before < 0 ? 0.0 : smoke.Extinction(before), extinction);
-        }
+        enters = beyond && depth[axis] > FlatDepth * std::abs(way[axis]) &&
+                 borders.Across(block, place, axis, side);
       }
     });
   return enters;
 }
 
-double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& block,
-  const std::vector<bool>& asked, double extinction, double rough,
+double DirectLight::LargestShare(const LightGroup& root, const ClearBorders& borders,
+  const Medium::Block& block, const std::vector<bool>& asked, double extinction, double rough,
   const std::vector<Spectrum>& sums) const
 {
   if (root.Law.Measured())
@@ -121,7 +105,7 @@ double DirectLight::LargestShare(const LightGroup& root, const Medium::Block& bl
     });
   share *= static_cast<double>(this->Scene_.Lights().Lights().size());
   // Only of a light that is weaker than others it matters whether this bounds it.
-  return share < 1.0 && this->Enters(root, block) ? Infinity : share;
+  return share < 1.0 && this->Enters(root, borders, block) ? Infinity : share;
 }
 
 bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) const
@@ -139,7 +123,7 @@ bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) co
 }
 
 DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
-  const Medium::Block& block, const std::vector<Spectrum>& sums) const
+  const ClearBorders& borders, const Medium::Block& block, const std::vector<Spectrum>& sums) const
 {
   BlockWays told;
   if (!ways.WalkCorners())
@@ -147,7 +131,7 @@ DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
     return told;
   }
   const std::vector<bool> all(block.Cells(), true);
-  const double share = this->LargestShare(root, block, all, ways.Least(), RoughWayTolerance, sums);
+  const double share = this->LargestShare(root, borders, block, all, ways.Least(), RoughWayTolerance, sums);
   // A weak light may be off by as much of the whole as the strongest; but the share is a bound
   // only where the corners do tell of what lies between.
   const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / share));
@@ -157,31 +141,32 @@ DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
     const bool odd = ways.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
     told.Rough = ways.Told() > 0 && allowed > WayTolerance;
     told.Share =
-      odd ? this->LargestShare(root, block, all, ways.Least(), RoughWayTolerance, sums) : share;
+      odd ? this->LargestShare(root, borders, block, all, ways.Least(), RoughWayTolerance, sums) : share;
   }
   return told;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(
-  std::size_t light, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+  std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const
 {
-  const LightWays toLight(
-    this->Scene_.Smoke(), this->Scene_.LargestScale(), this->Scene_.Lights().Root(light), block);
-  KeptSights sights(block);
-  return this->AddBlockFluence(light, toLight, sights, block, skips, sums);
+  const Medium::Block& block = borders.Block();
+  Known known{borders,
+    {this->Scene_.Smoke(), this->Scene_.LargestScale(), this->Scene_.Lights().Root(light), block},
+    KeptSights(block)};
+  return this->AddBlockFluence(light, known, block, skips, sums);
 }
 
-DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const LightWays& toLight,
-  KeptSights& sights, const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& known,
+  const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const LightGroup& root = toLight.Light();
+  const LightGroup& root = known.Ways.Light();
   std::optional<ToldWays> ways;
   BlockWays told;
   if (skips && this->FarFrom(root, block))
   {
-    ways.emplace(smoke, toLight, block);
-    told = this->Tell(*ways, root, block, sums);
+    ways.emplace(smoke, known.Ways, block);
+    told = this->Tell(*ways, root, known.Borders, block, sums);
   }
   BlockWork work;
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
@@ -201,8 +186,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
       }
       if (!empty)
       {
-        const BlockWork own =
-          this->AddBlockFluence(light, toLight, sights, child, skips, sums);
+        const BlockWork own = this->AddBlockFluence(light, known, child, skips, sums);
         work.Told += own.Told;
         work.Negligible += own.Negligible;
       }
@@ -216,7 +200,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
   }
   work.Told = ways ? ways->Told() : 0;
   const std::vector<double> shown =
-    this->ShownIn(light, block, told.Share < WeakShare, sights);
+    this->ShownIn(light, block, told.Share < WeakShare, known.Sights);
   // Of cells that see nothing of the light no ways are asked for, nor of those it is near to.
   std::vector<bool> asked(block.Cells(), false);
   const auto add = [&](std::int64_t cell, double share, const Spectrum& value)
@@ -250,7 +234,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
   if (ways && !told.Tell)
   {
     ways->Walk(asked);
-    told.Share = this->LargestShare(root, block, asked, ways->Least(), 0.0, sums);
+    told.Share = this->LargestShare(root, known.Borders, block, asked, ways->Least(), 0.0, sums);
     if (told.Share < NegligibleShare)
     {
       work.Negligible = block.Cells();
@@ -259,7 +243,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const Lig
   }
   const bool weak = told.Share < WeakShare;
   const std::vector<Deepening> deepening =
-    toLight.DeepeningIn(block, asked, ways ? ways->Extinction() : std::vector<double>(),
+    known.Ways.DeepeningIn(block, asked, ways ? ways->Extinction() : std::vector<double>(),
       work.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || told.Rough);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)

@@ -196,6 +196,9 @@ std::vector<double> DirectLight::ShownIn(
   // what is kept they are, if they are there.
   std::vector<std::int64_t> cells;
   std::vector<std::size_t> kept;
+  const std::size_t most = roughly ? block.Cells() : known.Kept.Cells();
+  cells.reserve(most);
+  kept.reserve(most);
   const auto take = [&](const std::array<int, 3>& place, std::int64_t cell)
   {
     std::array<int, 3> within;

@@ -1,5 +1,6 @@
 #include "DirectSolve.h"
 
+#include "ClearBorders.h"
 #include "DirectLight.h"
 #include "NearLights.h"
 #include "ReportedLoop.h"
@@ -131,10 +132,11 @@ void DirectSolve::Cells()
   this->ForOwn(blocks.size(), 1, PartShare, CellShare,
     [&](std::size_t block)
     {
+      const ClearBorders borders(smoke, blocks[block]);
       for (const std::size_t light : this->StrongestFirst(blocks[block]))
       {
         const DirectLight::BlockWork work =
-          direct.AddBlockFluence(light, blocks[block], this->Options_.Skips, sums);
+          direct.AddBlockFluence(light, borders, this->Options_.Skips, sums);
         told += work.Told;
         negligible += work.Negligible;
       }

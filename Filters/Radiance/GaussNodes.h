@@ -24,4 +24,13 @@ inline std::array<double, 3> QuadraticWeights(double t)
   return {b * c / (2.0 * step * step), -a * c / (step * step), a * b / (2.0 * step * step)};
 }
 
+/// Factors of 1, t and t^2 in the quadratic with these values at the three nodes.
+inline std::array<double, 3> QuadraticFactors(const std::array<double, 3>& values)
+{
+  constexpr double step = Nodes3[1] - Nodes3[0];
+  const double slope = (values[2] - values[0]) / (2.0 * step);
+  const double bend = (values[0] - 2.0 * values[1] + values[2]) / (2.0 * step * step);
+  return {values[1] - 0.5 * slope + 0.25 * bend, slope - bend, bend};
+}
+
 } // namespace smokevis

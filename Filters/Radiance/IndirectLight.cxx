@@ -56,8 +56,9 @@ double IndirectLight::Radiance(
     };
     if (varies)
     {
+      const double own = extinction * (segment.End - segment.Begin);
       this->Direct_.ForEachPart(
-        cell, origin, direction, segment.Begin, segment.End, place, this->Band_, add);
+        cell, origin, direction, segment.Begin, segment.End, own, place, this->Band_, add);
     }
     else
     {

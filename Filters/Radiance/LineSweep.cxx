@@ -29,6 +29,9 @@ constexpr double HitsASquare = 2.0;
 /// Hits that dark ones need to send on all of what a sweep found.
 constexpr double FewestHits = 0.25;
 
+/// Where one cell in so many, or more, has direct light that varies inside it, all are fetched.
+constexpr std::size_t MuchVarying = 4;
+
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
 
@@ -65,6 +68,12 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
         static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
     }
   }
+  std::size_t varying = 0;
+  for (std::size_t cell = 0; cell < cells; ++cell)
+  {
+    varying += direct.Varies(static_cast<std::int64_t>(cell), band) ? 1 : 0;
+  }
+  this->FetchesDirect_ = MuchVarying * varying > cells;
   this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_, progress);
   this->Shape_ = SourceShape(scene, field, direct, band, this->Extinction_);
   this->CellCrossings_.resize(cells);

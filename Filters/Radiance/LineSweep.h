@@ -139,6 +139,8 @@ private:
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
   GlobalLines Lines_, ThinLines_;
+  /// Whether lines fetch what they need to know of how direct light varies inside cells.
+  bool FetchesDirect_ = false;
   ThickCells Thick_;
   SourceShape Shape_;
   CellSteps Steps_;

@@ -52,6 +52,11 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   for (const Segment& segment : buffers.Segments)
   {
     __builtin_prefetch(&tallies.Cells[segment.Cell], 1);
+    if (this->FetchesDirect_)
+    {
+      this->Direct_.Fetch(segment.Cell, this->Band_);
+      __builtin_prefetch(&this->DirectFluence_[segment.Cell]);
+    }
   }
   const bool flat = this->Shape_.Flat();
   const Vec3 start = origin - smoke.Lower();
@@ -90,7 +95,8 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
       return;
     }
     const float mean = this->DirectFluence_[cell];
-    this->Direct_.ForEachPart(cell, origin, direction, begin, end, line.Random, this->Band_,
+    const double depth = static_cast<double>(own.Extinction()) * (end - begin);
+    this->Direct_.ForEachPart(cell, origin, direction, begin, end, depth, line.Random, this->Band_,
       [&](double part, double direct)
       { addPart(part, own.Source + this->Scatter_ * (static_cast<float>(direct) - mean)); });
   };

@@ -224,11 +224,14 @@ const Medium::Grid& Medium::GridOf(std::int64_t number, std::array<int, 3>& inde
   const auto after = std::upper_bound(this->Grids_.begin(), this->Grids_.end(), cell,
     [](std::int64_t value, const Grid& grid) { return value < grid.FirstCell; });
   const Grid& grid = *(after - 1);
-  std::int64_t local = cell - grid.FirstCell;
-  index[0] = static_cast<int>(local % grid.Size[0]);
-  local /= grid.Size[0];
-  index[1] = static_cast<int>(local % grid.Size[1]);
-  index[2] = static_cast<int>(local / grid.Size[1]);
+  // Divisions of short integers take a fraction of the time; cells are counted by such ones.
+  const auto local = static_cast<std::uint32_t>(cell - grid.FirstCell);
+  const auto columns = static_cast<std::uint32_t>(grid.Size[0]);
+  const auto rows = static_cast<std::uint32_t>(grid.Size[1]);
+  const std::uint32_t row = local / columns;
+  index[0] = static_cast<int>(local - row * columns);
+  index[2] = static_cast<int>(row / rows);
+  index[1] = static_cast<int>(row - static_cast<std::uint32_t>(index[2]) * rows);
   return grid;
 }
 

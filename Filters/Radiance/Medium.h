@@ -114,6 +114,15 @@ public:
     {
       return static_cast<std::size_t>(PlaceNumber(this->Size, place));
     }
+    /// Of a cell of another block that it holds.
+    std::size_t NumberIn(const Block& part, std::array<int, 3> place) const
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place[axis] += part.First[axis] - this->First[axis];
+      }
+      return this->Number(place);
+    }
     /// Calls visit(place) for all its cells in the order of these numbers.
     template <class Visit> void ForEachCell(Visit&& visit) const
     {
