@@ -258,8 +258,10 @@ private:
   bool FarFrom(const LightGroup& root, const Medium::Block& block) const;
   /// Lets the corners of such a block tell of its ways, if they do. The less a light may add to
   /// what the cells hold, the rougher its ways may be told.
+  /// @param asked the cells that count, x fastest
   BlockWays Tell(ToldWays& ways, const LightGroup& root, const ClearBorders& borders,
-    const Medium::Block& block, const std::vector<Spectrum>& sums) const;
+    const Medium::Block& block, const std::vector<bool>& asked,
+    const std::vector<Spectrum>& sums) const;
   /// What is known of a block and right around it, for one light.
   struct Known
   {

@@ -29,6 +29,29 @@ constexpr double NegligibleShare = 1e-7;
 constexpr double WeakShare = 0.05;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
+/// The smallest block that holds those cells of a block that are asked for, if any are.
+Medium::Block BlockOf(const Medium::Block& block, const std::vector<bool>& asked)
+{
+  std::array<int, 3> low = block.Size;
+  std::array<int, 3> high{};
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      for (int axis = 0; axis < 3 && asked[block.Number(place)]; ++axis)
+      {
+        low[axis] = std::min(low[axis], place[axis]);
+        high[axis] = std::max(high[axis], place[axis] + 1);
+      }
+    });
+  Medium::Block part = block;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    part.First[axis] += low[axis];
+    part.Size[axis] = std::max(0, high[axis] - low[axis]);
+  }
+  return part;
+}
+
 } // namespace
 
 bool DirectLight::Enters(
@@ -123,15 +146,18 @@ bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) co
 }
 
 DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
-  const ClearBorders& borders, const Medium::Block& block, const std::vector<Spectrum>& sums) const
+  const ClearBorders& borders, const Medium::Block& block, const std::vector<bool>& asked,
+  const std::vector<Spectrum>& sums) const
 {
   BlockWays told;
   if (!ways.WalkCorners())
   {
     return told;
   }
-  const std::vector<bool> all(block.Cells(), true);
-  const double share = this->LargestShare(root, borders, block, all, ways.Least(), RoughWayTolerance, sums);
+  const auto largest = [&] {
+    return this->LargestShare(root, borders, block, asked, ways.Least(), RoughWayTolerance, sums);
+  };
+  const double share = largest();
   // A weak light may be off by as much of the whole as the strongest; but the share is a bound
   // only where the corners do tell of what lies between.
   const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / share));
@@ -140,8 +166,7 @@ DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
   {
     const bool odd = ways.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
     told.Rough = ways.Told() > 0 && allowed > WayTolerance;
-    told.Share =
-      odd ? this->LargestShare(root, borders, block, all, ways.Least(), RoughWayTolerance, sums) : share;
+    told.Share = odd ? largest() : share;
   }
   return told;
 }
@@ -166,7 +191,8 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   if (skips && this->FarFrom(root, block))
   {
     ways.emplace(smoke, known.Ways, block);
-    told = this->Tell(*ways, root, known.Borders, block, sums);
+    told = this->Tell(
+      *ways, root, known.Borders, block, std::vector<bool>(block.Cells(), true), sums);
   }
   BlockWork work;
   const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
@@ -198,7 +224,6 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
     work.Negligible = block.Cells();
     return work;
   }
-  work.Told = ways ? ways->Told() : 0;
   const std::vector<double> shown =
     this->ShownIn(light, block, told.Share < WeakShare, known.Sights);
   // Of cells that see nothing of the light no ways are asked for, nor of those it is near to.
@@ -227,24 +252,45 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
       }
       asked[block.Number(place)] = shown[block.Number(place)] > 0.0;
     });
-  if (std::none_of(asked.begin(), asked.end(), [](bool each) { return each; }))
+  const Medium::Block lit = BlockOf(block, asked);
+  if (lit.Cells() == 0)
   {
+    work.Told = ways ? ways->Told() : 0;
     return work;
+  }
+  Medium::Block walked = block;
+  if (ways && !told.Tell && lit.Cells() < block.Cells())
+  {
+    // Its corners may lie in or behind a wall: those of what sees the light may tell more.
+    std::vector<bool> within(lit.Cells());
+    lit.ForEachCell([&](const std::array<int, 3>& place)
+      { within[lit.Number(place)] = asked[block.NumberIn(lit, place)]; });
+    walked = lit;
+    ways.emplace(smoke, known.Ways, lit);
+    told = this->Tell(*ways, root, known.Borders, lit, within, sums);
   }
   if (ways && !told.Tell)
   {
+    walked = block;
+    ways.emplace(smoke, known.Ways, block);
     ways->Walk(asked);
     told.Share = this->LargestShare(root, known.Borders, block, asked, ways->Least(), 0.0, sums);
-    if (told.Share < NegligibleShare)
-    {
-      work.Negligible = block.Cells();
-      return work;
-    }
+  }
+  if (told.Share < NegligibleShare)
+  {
+    work.Negligible = lit.Cells();
+    return work;
   }
   const bool weak = told.Share < WeakShare;
-  const std::vector<Deepening> deepening =
-    known.Ways.DeepeningIn(block, asked, ways ? ways->Extinction() : std::vector<double>(),
-      work.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || told.Rough);
+  std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
+  if (ways)
+  {
+    work.Told = ways->Told();
+    walked.ForEachCell([&](const std::array<int, 3>& place)
+      { extinction[block.NumberIn(walked, place)] = ways->Extinction()[walked.Number(place)]; });
+  }
+  const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
+    work.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || told.Rough);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {

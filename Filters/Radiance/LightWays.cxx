@@ -184,7 +184,7 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
     const std::size_t number = block.Number(place);
     if (!ways[number])
     {
-      const bool known = !extinction.empty() && !std::isnan(extinction[number]);
+      const bool known = !std::isnan(extinction[number]);
       ways[number] = this->From(this->Smoke_.Cell(block, place),
         known ? extinction[number] : this->Extinction(block, place));
     }

@@ -37,7 +37,7 @@ public:
   Deepening DeepeningOf(std::int64_t cell) const;
   /// The same of the cells of a block that are asked for.
   /// @param asked of each cell of the block, x fastest
-  /// @param extinction means along the ways from its cells [1/m]; empty, or NaN: not known
+  /// @param extinction means along the ways from its cells [1/m]; NaN: not known
   /// @param allowed by how much optical depths of ways from cells around the block may be off,
   /// where a few of them tell the rest; none: all are walked
   /// @param roughly whether it will do to take smoke for even
