@@ -19,7 +19,6 @@ class ClearBorders;
 class NearField;
 class NearLights;
 class Scene;
-class ToldWays;
 struct LightGroup;
 
 /// Next-event estimation without noise: the solid angle of the emitter is exact, the transmittance
@@ -232,11 +231,22 @@ private:
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
-  /// What is known of the ways from the cells of a block to a light.
+  /// What is known of a block and right around it, for one light.
+  struct Known
+  {
+    const ClearBorders& Borders;
+    LightWays Ways;
+    KeptSights Sights;
+  };
+  /// The ways from the cells of a block to a light.
   struct BlockWays
   {
-    /// Whether a few of them tell the rest.
+    Medium::Block Cells;
+    /// Mean extinction along each, x fastest; NaN, or none at all: not known [1/m].
+    std::vector<double> Extinction{};
+    /// Whether a few of them tell the rest, and how many cells' are told so.
     bool Tell = false;
+    std::size_t Told = 0;
     /// Bound of what the light adds to any cell, over what that cell already holds, times the
     /// number of lights.
     double Share = std::numeric_limits<double>::infinity();
@@ -247,8 +257,8 @@ private:
   /// @param asked the cells that count, of each cell of the block, x fastest
   /// @param extinction smallest mean along the ways from these [1/m]
   /// @param rough error of their optical depths
-  double LargestShare(const LightGroup& root, const ClearBorders& borders,
-    const Medium::Block& block, const std::vector<bool>& asked, double extinction, double rough,
+  double LargestShare(const Known& known, const Medium::Block& block,
+    const std::vector<bool>& asked, double extinction, double rough,
     const std::vector<Spectrum>& sums) const;
   /// Whether light comes into any cell of a block from clear air at a slant so flat that the cell
   /// gets dark beside that face: its centre then tells nothing of what it gets.
@@ -259,18 +269,20 @@ private:
   /// Lets the corners of such a block tell of its ways, if they do. The less a light may add to
   /// what the cells hold, the rougher its ways may be told.
   /// @param asked the cells that count, x fastest
-  BlockWays Tell(ToldWays& ways, const LightGroup& root, const ClearBorders& borders,
-    const Medium::Block& block, const std::vector<bool>& asked,
+  BlockWays TellWays(const Known& known, const Medium::Block& block, const std::vector<bool>& asked,
     const std::vector<Spectrum>& sums) const;
-  /// What is known of a block and right around it, for one light.
-  struct Known
-  {
-    const ClearBorders& Borders;
-    LightWays Ways;
-    KeptSights Sights;
-  };
+  /// Walks those that are asked for.
+  BlockWays WalkWays(const Known& known, const Medium::Block& block, const std::vector<bool>& asked,
+    const std::vector<Spectrum>& sums) const;
+  /// The cells of a block whose light is to be found: they see the light, which is not near to
+  /// them, and are whole.
+  std::vector<bool> AskedIn(
+    std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const;
   /// Adds the light to a block within that one.
   BlockWork AddBlockFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
+    std::vector<Spectrum>& sums) const;
+  /// The same, to one eighth of the block after another.
+  BlockWork AddPartsFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
     std::vector<Spectrum>& sums) const;
   /// @param level how often it was split from a whole triangle
   void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,

@@ -52,6 +52,21 @@ Medium::Block BlockOf(const Medium::Block& block, const std::vector<bool>& asked
   return part;
 }
 
+/// What is said of each cell of a block, of the cells of one that it holds.
+std::vector<bool> PartOf(
+  const Medium::Block& block, const std::vector<bool>& cells, const Medium::Block& part)
+{
+  std::vector<bool> own(part.Cells());
+  part.ForEachCell([&](const std::array<int, 3>& place)
+    { own[part.Number(place)] = cells[block.NumberIn(part, place)]; });
+  return own;
+}
+
+int LongestOf(const Medium::Block& block)
+{
+  return std::max({block.Size[0], block.Size[1], block.Size[2]});
+}
+
 } // namespace
 
 bool DirectLight::Enters(
@@ -90,10 +105,11 @@ bool DirectLight::Enters(
   return enters;
 }
 
-double DirectLight::LargestShare(const LightGroup& root, const ClearBorders& borders,
-  const Medium::Block& block, const std::vector<bool>& asked, double extinction, double rough,
+double DirectLight::LargestShare(const Known& known, const Medium::Block& block,
+  const std::vector<bool>& asked, double extinction, double rough,
   const std::vector<Spectrum>& sums) const
 {
+  const LightGroup& root = known.Ways.Light();
   if (root.Law.Measured())
   {
     return Infinity;
@@ -128,7 +144,7 @@ double DirectLight::LargestShare(const LightGroup& root, const ClearBorders& bor
     });
   share *= static_cast<double>(this->Scene_.Lights().Lights().size());
   // Only of a light that is weaker than others it matters whether this bounds it.
-  return share < 1.0 && this->Enters(root, borders, block) ? Infinity : share;
+  return share < 1.0 && this->Enters(root, known.Borders, block) ? Infinity : share;
 }
 
 bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) const
@@ -145,30 +161,42 @@ bool DirectLight::FarFrom(const LightGroup& root, const Medium::Block& block) co
          edge <= 0.5 * BoxRatio * distance;
 }
 
-DirectLight::BlockWays DirectLight::Tell(ToldWays& ways, const LightGroup& root,
-  const ClearBorders& borders, const Medium::Block& block, const std::vector<bool>& asked,
-  const std::vector<Spectrum>& sums) const
+DirectLight::BlockWays DirectLight::TellWays(const Known& known, const Medium::Block& block,
+  const std::vector<bool>& asked, const std::vector<Spectrum>& sums) const
 {
-  BlockWays told;
+  BlockWays told{block};
+  ToldWays ways(this->Scene_.Smoke(), known.Ways, block);
   if (!ways.WalkCorners())
   {
     return told;
   }
-  const auto largest = [&] {
-    return this->LargestShare(root, borders, block, asked, ways.Least(), RoughWayTolerance, sums);
-  };
-  const double share = largest();
+  const auto share = [&]
+  { return this->LargestShare(known, block, asked, ways.Least(), RoughWayTolerance, sums); };
+  const double first = share();
   // A weak light may be off by as much of the whole as the strongest; but the share is a bound
   // only where the corners do tell of what lies between.
-  const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / share));
+  const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / first));
   told.Tell = ways.CornersTell(allowed);
   if (told.Tell)
   {
     const bool odd = ways.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
-    told.Rough = ways.Told() > 0 && allowed > WayTolerance;
-    told.Share = odd ? largest() : share;
+    told.Told = ways.Told();
+    told.Rough = told.Told > 0 && allowed > WayTolerance;
+    told.Share = odd ? share() : first;
+    told.Extinction = ways.Extinction();
   }
   return told;
+}
+
+DirectLight::BlockWays DirectLight::WalkWays(const Known& known, const Medium::Block& block,
+  const std::vector<bool>& asked, const std::vector<Spectrum>& sums) const
+{
+  BlockWays walked{block};
+  ToldWays ways(this->Scene_.Smoke(), known.Ways, block);
+  ways.Walk(asked);
+  walked.Share = this->LargestShare(known, block, asked, ways.Least(), 0.0, sums);
+  walked.Extinction = ways.Extinction();
+  return walked;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(
@@ -181,53 +209,80 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(
   return this->AddBlockFluence(light, known, block, skips, sums);
 }
 
+DirectLight::BlockWork DirectLight::AddPartsFluence(std::size_t light, Known& known,
+  const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
+{
+  BlockWork work;
+  const int half = (LongestOf(block) + 1) / 2;
+  for (int part = 0; part < 8; ++part)
+  {
+    Medium::Block child = block;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int first = part >> axis & 1 ? half : 0;
+      child.First[axis] += first;
+      child.Size[axis] = std::clamp(block.Size[axis] - first, 0, half);
+    }
+    if (child.Cells() > 0)
+    {
+      const BlockWork own = this->AddBlockFluence(light, known, child, skips, sums);
+      work.Told += own.Told;
+      work.Negligible += own.Negligible;
+    }
+  }
+  return work;
+}
+
+std::vector<bool> DirectLight::AskedIn(
+  std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  std::vector<bool> asked(block.Cells());
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::int64_t cell = smoke.Cell(block, place);
+      const std::size_t number = block.Number(place);
+      asked[number] =
+        shown[number] > 0.0 && !smoke.Parts().Find(cell) && !this->KeptFluence(light, cell);
+    });
+  return asked;
+}
+
 DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& known,
   const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  const LightGroup& root = known.Ways.Light();
-  std::optional<ToldWays> ways;
-  BlockWays told;
-  if (skips && this->FarFrom(root, block))
+  const bool far = skips && this->FarFrom(known.Ways.Light(), block);
+  BlockWays ways{block};
+  if (far)
   {
-    ways.emplace(smoke, known.Ways, block);
-    told = this->Tell(
-      *ways, root, known.Borders, block, std::vector<bool>(block.Cells(), true), sums);
+    ways = this->TellWays(known, block, std::vector<bool>(block.Cells(), true), sums);
   }
-  BlockWork work;
-  const int largest = std::max({block.Size[0], block.Size[1], block.Size[2]});
-  if (!told.Tell && largest > ToldWays::SmallestBlock)
+  if (!ways.Tell && LongestOf(block) > ToldWays::SmallestBlock)
   {
-    const int half = (largest + 1) / 2;
-    for (int part = 0; part < 8; ++part)
-    {
-      Medium::Block child = block;
-      bool empty = false;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const int first = part >> axis & 1 ? half : 0;
-        child.First[axis] += first;
-        child.Size[axis] = std::min(half, block.Size[axis] - first);
-        empty = empty || child.Size[axis] <= 0;
-      }
-      if (!empty)
-      {
-        const BlockWork own = this->AddBlockFluence(light, known, child, skips, sums);
-        work.Told += own.Told;
-        work.Negligible += own.Negligible;
-      }
-    }
-    return work;
+    return this->AddPartsFluence(light, known, block, skips, sums);
   }
-  if (told.Share < NegligibleShare)
+  if (ways.Share < NegligibleShare)
   {
-    work.Negligible = block.Cells();
-    return work;
+    return {0, block.Cells()};
   }
   const std::vector<double> shown =
-    this->ShownIn(light, block, told.Share < WeakShare, known.Sights);
-  // Of cells that see nothing of the light no ways are asked for, nor of those it is near to.
-  std::vector<bool> asked(block.Cells(), false);
+    this->ShownIn(light, block, ways.Share < WeakShare, known.Sights);
+  const std::vector<bool> asked = this->AskedIn(light, block, shown);
+  const Medium::Block lit = BlockOf(block, asked);
+  if (far && !ways.Tell && lit.Cells() > 0)
+  {
+    if (lit.Cells() < block.Cells())
+    {
+      // The block's corners may lie in or behind a wall: those of what sees the light may tell.
+      ways = this->TellWays(known, lit, PartOf(block, asked, lit), sums);
+    }
+    if (!ways.Tell)
+    {
+      ways = this->WalkWays(known, block, asked, sums);
+    }
+  }
   const auto add = [&](std::int64_t cell, double share, const Spectrum& value)
   {
     for (int band = 0; band < this->Scene_.Bands(); ++band)
@@ -238,59 +293,33 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
-      const std::int64_t cell = smoke.Cell(block, place);
-      if (smoke.Parts().Find(cell))
-      {
-        // The parts of a cell are measured each by itself.
-        return;
-      }
       // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-      if (const std::optional<Spectrum> kept = this->KeptFluence(light, cell))
+      // The parts of a cell are measured each by itself.
+      const std::int64_t cell = smoke.Cell(block, place);
+      const std::optional<Spectrum> kept =
+        smoke.Parts().Find(cell) ? std::nullopt : this->KeptFluence(light, cell);
+      if (kept)
       {
         add(cell, 1.0, *kept);
-        return;
       }
-      asked[block.Number(place)] = shown[block.Number(place)] > 0.0;
     });
-  const Medium::Block lit = BlockOf(block, asked);
   if (lit.Cells() == 0)
   {
-    work.Told = ways ? ways->Told() : 0;
-    return work;
+    return {ways.Told, 0};
   }
-  Medium::Block walked = block;
-  if (ways && !told.Tell && lit.Cells() < block.Cells())
+  if (ways.Share < NegligibleShare)
   {
-    // Its corners may lie in or behind a wall: those of what sees the light may tell more.
-    std::vector<bool> within(lit.Cells());
-    lit.ForEachCell([&](const std::array<int, 3>& place)
-      { within[lit.Number(place)] = asked[block.NumberIn(lit, place)]; });
-    walked = lit;
-    ways.emplace(smoke, known.Ways, lit);
-    told = this->Tell(*ways, root, known.Borders, lit, within, sums);
+    return {0, lit.Cells()};
   }
-  if (ways && !told.Tell)
-  {
-    walked = block;
-    ways.emplace(smoke, known.Ways, block);
-    ways->Walk(asked);
-    told.Share = this->LargestShare(root, known.Borders, block, asked, ways->Least(), 0.0, sums);
-  }
-  if (told.Share < NegligibleShare)
-  {
-    work.Negligible = lit.Cells();
-    return work;
-  }
-  const bool weak = told.Share < WeakShare;
   std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
-  if (ways)
+  if (!ways.Extinction.empty())
   {
-    work.Told = ways->Told();
-    walked.ForEachCell([&](const std::array<int, 3>& place)
-      { extinction[block.NumberIn(walked, place)] = ways->Extinction()[walked.Number(place)]; });
+    ways.Cells.ForEachCell([&](const std::array<int, 3>& place)
+      { extinction[block.NumberIn(ways.Cells, place)] = ways.Extinction[ways.Cells.Number(place)]; });
   }
+  const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
-    work.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || told.Rough);
+    ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -299,10 +328,10 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
       {
         const std::int64_t cell = smoke.Cell(block, place);
         add(cell, shown[number],
-          this->CellFluence({light, cell, deepening[number], ways.has_value(), weak}));
+          this->CellFluence({light, cell, deepening[number], far, weak}));
       }
     });
-  return work;
+  return {ways.Told, 0};
 }
 
 } // namespace smokevis
