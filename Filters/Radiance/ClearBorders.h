@@ -19,8 +19,7 @@ public:
   const Medium::Block& Block() const { return this->Block_; }
   /// @param part a block within this one
   /// @param place of a cell in that
-  bool Across(
-    const Medium::Block& part, const std::array<int, 3>& place, int axis, int side) const
+  bool Across(const Medium::Block& part, const std::array<int, 3>& place, int axis, int side) const
   {
     return (this->Faces_[this->Block_.NumberIn(part, place)] >> (2 * axis + side) & 1) != 0;
   }

@@ -100,8 +100,7 @@ void DirectField::FindVarying()
       const int near = this->Lights_->Place(cell);
       const bool close = near >= 0 && this->Lights_->Cells()[near].Close;
       // In the thickest cells parts would not follow the light; means keep the balance of power.
-      if (this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 &&
-          depth < MostParts * PartDepth)
+      if (this->Field_.DirectFluence[index] > 0.0F && depth > 0.0 && depth < MostParts * PartDepth)
       {
         this->Variation_[index] = depth > FlatDepth ? Variation::Thick
                                   : close           ? Variation::Close

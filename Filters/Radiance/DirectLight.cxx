@@ -94,9 +94,10 @@ double DirectLight::Ways::At(const Vec3& place) const
 {
   const double u = glm::dot(place - this->Corner, this->Along);
   const double v = glm::dot(place - this->Corner, this->Up);
-  const auto along = [u](const std::array<double, 3>& of) { return of[0] + u * (of[1] + u * of[2]); };
-  return std::max(0.0, along(this->Factors[0]) +
-                         v * (along(this->Factors[1]) + v * along(this->Factors[2])));
+  const auto along = [u](const std::array<double, 3>& of)
+  { return of[0] + u * (of[1] + u * of[2]); };
+  return std::max(
+    0.0, along(this->Factors[0]) + v * (along(this->Factors[1]) + v * along(this->Factors[2])));
 }
 
 std::optional<DirectLight::Ways> DirectLight::WaysTo(

@@ -59,8 +59,8 @@ public:
   /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
   /// sums hold bounds what is negligible
   /// @param skips whether ways are told and negligible lights left out
-  BlockWork AddBlockFluence(std::size_t light, const ClearBorders& borders, bool skips,
-    std::vector<Spectrum>& sums) const;
+  BlockWork AddBlockFluence(
+    std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const Triangle& corners, const Vec3& normal) const;

@@ -314,8 +314,10 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
   if (!ways.Extinction.empty())
   {
-    ways.Cells.ForEachCell([&](const std::array<int, 3>& place)
-      { extinction[block.NumberIn(ways.Cells, place)] = ways.Extinction[ways.Cells.Number(place)]; });
+    ways.Cells.ForEachCell(
+      [&](const std::array<int, 3>& place) {
+        extinction[block.NumberIn(ways.Cells, place)] = ways.Extinction[ways.Cells.Number(place)];
+      });
   }
   const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
@@ -327,8 +329,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
       if (asked[number])
       {
         const std::int64_t cell = smoke.Cell(block, place);
-        add(cell, shown[number],
-          this->CellFluence({light, cell, deepening[number], far, weak}));
+        add(cell, shown[number], this->CellFluence({light, cell, deepening[number], far, weak}));
       }
     });
   return {ways.Told, 0};

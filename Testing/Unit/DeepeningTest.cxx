@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -98,7 +99,7 @@ TEST(Deepening, EvenSmoke)
   EXPECT_NEAR(around.Moved(from, step).At(from + step, -step), -around.At(from, step), 1e-9);
 }
 
-/// The same of every cell that no finer mesh covers, from the cells of halves of blocks.
+/// The same of two of three cells, unless a finer mesh covers them, from those of halves of blocks.
 /// @param visit(cell, alone, in a block)
 template <class Visit>
 void ForEachInBlocks(
@@ -114,16 +115,21 @@ void ForEachInBlocks(
       Medium::Block block = whole;
       block.First[0] += first;
       block.Size[0] = std::min(half, whole.Size[0] - first);
-      const std::vector<Deepening> around = ways.DeepeningIn(block, {}, allowed, false);
-      std::size_t number = 0;
+      std::vector<bool> asked(block.Cells());
+      for (std::size_t cell = 0; cell < asked.size(); ++cell)
+      {
+        asked[cell] = cell % 3 != 1;
+      }
+      const std::vector<double> unknown(block.Cells(), std::numeric_limits<double>::quiet_NaN());
+      const std::vector<Deepening> around = ways.DeepeningIn(block, asked, unknown, allowed, false);
       block.ForEachCell(
         [&](const std::array<int, 3>& place)
         {
           const std::int64_t cell = smoke.Cell(block, place);
-          const Deepening& shared = around[number++];
-          if (!smoke.Covered(cell))
+          const std::size_t number = block.Number(place);
+          if (asked[number] && !smoke.Covered(cell))
           {
-            visit(cell, alone.DeepeningOf(cell), shared);
+            visit(cell, alone.DeepeningOf(cell), around[number]);
           }
         });
     }

@@ -132,6 +132,34 @@ TEST(Skip, ThinClearGapBesideALamp)
   report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.01);
 }
 
+// FDS meshes often reach beyond the walls. Cells there see no lamp; those inside, though they share
+// blocks with them, need not walk their ways each by itself, and their light is the same.
+TEST(Skip, WaysInBlocksThatReachBehindWalls)
+{
+  SceneDescription scene = scenes::Corridor(1.0, 1);
+  SmokeGrid& grid = scene.Grids[0];
+  grid = scenes::UniformSmoke({-1.0, -1.0, -0.5}, {61.0, 5.0, 4.5}, {124, 12, 10}, 0.0);
+  double inside = 0.0;
+  for (int z = 1; z < 9; ++z)
+  {
+    for (int y = 2; y < 10; ++y)
+    {
+      for (int x = 2; x < 122; ++x)
+      {
+        grid.Extinction[x + 124 * (y + 12 * z)] = 0.2F + 0.02F * static_cast<float>(z);
+        inside += 1.0;
+      }
+    }
+  }
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("Corridor of layered smoke in a mesh that reaches beyond its walls");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.005);
+  std::printf("%.0f of %.0f cells' ways told\n", skipping.Count("not walked"), inside);
+  // Blocks that lie wholly inside hold a quarter of the cells.
+  EXPECT_GT(skipping.Count("not walked"), 0.3 * inside);
+}
+
 // A curtain of smoke leaves one layer of cells clear; which of a block's eight it is must not
 // matter.
 TEST(Skip, AnyClearLayer)
