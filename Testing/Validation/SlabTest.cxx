@@ -105,9 +105,16 @@ TEST(Slab, ClearAirBeforeABlackWall)
 // through.
 TEST(Slab, CoarseLayers)
 {
-  CheckRows(5.0, 5.0, {0.5, 0.8}, 9, 0.01);
-  CheckRows(5.0, 5.0, {0.5, 0.8}, 5, 0.03);
-  CheckRows(5.0, 5.0, {0.5, 0.8}, 3, 0.05);
+  CheckRows(5.0, 5.0, {0.5}, 9, 0.01);
+  CheckRows(5.0, 5.0, {0.5}, 5, 0.03);
+  CheckRows(5.0, 5.0, {0.5}, 3, 0.05);
+}
+
+TEST(Slab, CoarseLayersLong)
+{
+  CheckRows(5.0, 5.0, {0.8}, 9, 0.01);
+  CheckRows(5.0, 5.0, {0.8}, 5, 0.03);
+  CheckRows(5.0, 5.0, {0.8}, 3, 0.05);
 }
 
 // How light falls off inside such layers is told by noisy means, once for all batches, so that
@@ -147,8 +154,13 @@ TEST(Slab, ThickestLong)
 // hangs on few lines. Layers of a quarter and of half a mean free path, to 1 %, as coarse layers.
 TEST(Slab, WhiteAndDeep)
 {
-  CheckRows(16.0, 16.0, {0.95, 0.99, 1.0}, 65, 0.01);
+  CheckRows(16.0, 16.0, {0.99}, 65, 0.01);
   CheckRows(32.0, 32.0, {1.0}, 65, 0.01);
+}
+
+TEST(Slab, WhiteAndDeepLong)
+{
+  CheckRows(16.0, 16.0, {0.95, 1.0}, 65, 0.01);
 }
 
 // Clear air between deep white smoke changes nothing: what crosses it comes back many times.
@@ -197,19 +209,26 @@ double HalfSpaceReflectance(const std::string& albedo)
   return 1.0 - 2.0 * std::sqrt(1.0 - std::stod(albedo)) * integral;
 }
 
-// Of five mean free paths of soot nothing shows that a half-space would not, to 1e-4; layers of a
-// tenth of a mean free path take as much as the rest of 1e-3. Sources flat in each would send 0.3 %
-// too little back.
-TEST(Slab, DeepSootIsAHalfSpace)
+/// Of five mean free paths of soot nothing shows that a half-space would not, to 1e-4; layers of a
+/// tenth of a mean free path take as much as the rest of 1e-3. Sources flat in each would send 0.3
+/// % too little back.
+void CheckDeepSoot(const std::string& albedo)
 {
   report::Head("Slab of five mean free paths against a half-space");
-  for (const char* albedo : {"0.2", "0.5"})
-  {
-    const scenes::Slab slab = scenes::MakeSlab(5.0, std::stod(albedo), LayersFor(5.0));
-    const Estimate back = Solved(slab.Description).Illuminance(slab.NearPatches, 0);
-    report::Relative(std::string("R, albedo ") + albedo, HalfSpaceReflectance(albedo), back.Mean,
-      1e-3, back.StandardError);
-  }
+  const scenes::Slab slab = scenes::MakeSlab(5.0, std::stod(albedo), LayersFor(5.0));
+  const Estimate back = Solved(slab.Description).Illuminance(slab.NearPatches, 0);
+  report::Relative(
+    "R, albedo " + albedo, HalfSpaceReflectance(albedo), back.Mean, 1e-3, back.StandardError);
+}
+
+TEST(Slab, DeepSootIsAHalfSpace)
+{
+  CheckDeepSoot("0.5");
+}
+
+TEST(Slab, DarkerDeepSootLong)
+{
+  CheckDeepSoot("0.2");
 }
 
 /// Conservative slab between black plates: flux, and G / 4 at a quarter of the depth.
