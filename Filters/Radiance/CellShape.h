@@ -36,7 +36,7 @@ public:
     }
   }
 
-  /// Value at a point of a cell over the mean there.
+  /// Value at a point of a cell over the mean there, as exactly as slopes are kept.
   double Value(std::int64_t cell, const Vec3& point) const
   {
     if (this->Slopes_.empty())

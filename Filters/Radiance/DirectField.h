@@ -95,8 +95,9 @@ private:
   /// Parts that a piece of a ray is cut into: the source is flat in each.
   static int Parts(double depth)
   {
-    return depth > PartDepth ? std::min(MostParts, static_cast<int>(std::ceil(depth / PartDepth)))
-                             : 1;
+    return depth > PartDepth
+             ? static_cast<int>(std::min<double>(MostParts, std::ceil(depth / PartDepth)))
+             : 1;
   }
 
   const Scene& Scene_;

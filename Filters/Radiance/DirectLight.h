@@ -143,7 +143,9 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
-  /// Mean fluence over a cell of a light that is near to it; none where it is not.
+  /// Whether a light is near to a cell, and its fluence there kept.
+  bool Keeps(std::size_t light, std::int64_t cell) const;
+  /// Mean fluence over a cell of such a light; none of others.
   std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
   /// Mean fluence over a part of a cell, of whatever light.
   Spectrum SampledFluence(std::size_t light, const CellPart& part) const;
@@ -177,7 +179,7 @@ private:
   /// would get.
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
-  /// What cells of a block, and those around it, see of a light: each is asked once.
+  /// What cells of a block, and those of its grid around it, see of a light: each is asked once.
   struct KeptSights
   {
     explicit KeptSights(const Medium::Block& block);
@@ -229,6 +231,8 @@ private:
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
     const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
+  /// Whether a box lies wholly behind a plate, and so gets nothing.
+  static bool Behind(const LightGroup& root, const Vec3& centre, const Vec3& size);
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
   /// What is known of a block and right around it, for one light.
@@ -244,6 +248,8 @@ private:
     Medium::Block Cells;
     /// Mean extinction along each, x fastest; NaN, or none at all: not known [1/m].
     std::vector<double> Extinction{};
+    /// Whether one way stands for all ways from a place.
+    bool Far = false;
     /// Whether a few of them tell the rest, and how many cells' are told so.
     bool Tell = false;
     std::size_t Told = 0;
@@ -274,11 +280,18 @@ private:
   /// Walks those that are asked for.
   BlockWays WalkWays(const Known& known, const Medium::Block& block, const std::vector<bool>& asked,
     const std::vector<Spectrum>& sums) const;
-  /// The cells of a block whose light is to be found: they see the light, which is not near to
-  /// them, and are whole.
+  /// The cells of a block whose light is to be found: they see the light, from its front, which is
+  /// not near to them, and are whole.
   std::vector<bool> AskedIn(
     std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const;
-  /// Adds the light to a block within that one.
+  /// Adds what is kept of the light in a block.
+  void AddKept(std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const;
+  /// Adds the light to the cells of a block that are asked for.
+  /// @param shown share of it that is not hidden, of each cell
+  void AddAsked(std::size_t light, const Known& known, const Medium::Block& block,
+    const std::vector<bool>& asked, const std::vector<double>& shown, const BlockWays& ways,
+    std::vector<Spectrum>& sums) const;
+  /// Adds the light to a block within the one that this is known of.
   BlockWork AddBlockFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
     std::vector<Spectrum>& sums) const;
   /// The same, to one eighth of the block after another.

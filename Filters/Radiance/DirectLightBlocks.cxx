@@ -52,6 +52,14 @@ Medium::Block BlockOf(const Medium::Block& block, const std::vector<bool>& asked
   return part;
 }
 
+void Add(Spectrum& sum, double share, const Spectrum& value)
+{
+  for (std::size_t band = 0; band < sum.size(); ++band)
+  {
+    sum[band] += share * value[band];
+  }
+}
+
 /// What is said of each cell of a block, of the cells of one that it holds.
 std::vector<bool> PartOf(
   const Medium::Block& block, const std::vector<bool>& cells, const Medium::Block& part)
@@ -60,11 +68,6 @@ std::vector<bool> PartOf(
   part.ForEachCell([&](const std::array<int, 3>& place)
     { own[part.Number(place)] = cells[block.NumberIn(part, place)]; });
   return own;
-}
-
-int LongestOf(const Medium::Block& block)
-{
-  return std::max({block.Size[0], block.Size[1], block.Size[2]});
 }
 
 } // namespace
@@ -179,9 +182,9 @@ DirectLight::BlockWays DirectLight::TellWays(const Known& known, const Medium::B
   told.Tell = ways.CornersTell(allowed);
   if (told.Tell)
   {
-    const bool odd = ways.TellRest(std::max(2.0 * WayTolerance, allowed / OddCells));
+    const bool odd = ways.TellRest(asked, std::max(2.0 * WayTolerance, allowed / OddCells));
     told.Told = ways.Told();
-    told.Rough = told.Told > 0 && allowed > WayTolerance;
+    told.Rough = allowed > WayTolerance;
     told.Share = odd ? share() : first;
     told.Extinction = ways.Extinction();
   }
@@ -213,7 +216,7 @@ DirectLight::BlockWork DirectLight::AddPartsFluence(std::size_t light, Known& kn
   const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
   BlockWork work;
-  const int half = (LongestOf(block) + 1) / 2;
+  const int half = (block.LongestEdge() + 1) / 2;
   for (int part = 0; part < 8; ++part)
   {
     Medium::Block child = block;
@@ -237,29 +240,85 @@ std::vector<bool> DirectLight::AskedIn(
   std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const
 {
   const Medium& smoke = this->Scene_.Smoke();
+  const LightGroup& root = this->Scene_.Lights().Root(light);
   std::vector<bool> asked(block.Cells());
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
       const std::int64_t cell = smoke.Cell(block, place);
       const std::size_t number = block.Number(place);
-      asked[number] =
-        shown[number] > 0.0 && !smoke.Parts().Find(cell) && !this->KeptFluence(light, cell);
+      asked[number] = shown[number] > 0.0 && !smoke.Parts().Find(cell) &&
+                      !this->Keeps(light, cell) &&
+                      !Behind(root, smoke.CellCentre(cell), smoke.CellSize(cell));
     });
   return asked;
+}
+
+void DirectLight::AddKept(
+  std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      // The parts of a cell are measured each by itself.
+      const std::int64_t cell = smoke.Cell(block, place);
+      if (const auto kept =
+            smoke.Parts().Find(cell) ? std::nullopt : this->KeptFluence(light, cell))
+      {
+        Add(sums[cell], 1.0, *kept);
+      }
+    });
+}
+
+void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::Block& block,
+  const std::vector<bool>& asked, const std::vector<double>& shown, const BlockWays& ways,
+  std::vector<Spectrum>& sums) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
+  if (!ways.Extinction.empty())
+  {
+    ways.Cells.ForEachCell(
+      [&](const std::array<int, 3>& place) {
+        extinction[block.NumberIn(ways.Cells, place)] = ways.Extinction[ways.Cells.Number(place)];
+      });
+  }
+  const bool weak = ways.Share < WeakShare;
+  const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
+    ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::size_t number = block.Number(place);
+      if (asked[number])
+      {
+        const std::int64_t cell = smoke.Cell(block, place);
+        Add(sums[cell], shown[number],
+          this->CellFluence({light, cell, deepening[number], ways.Far, weak}));
+      }
+    });
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& known,
   const Medium::Block& block, bool skips, std::vector<Spectrum>& sums) const
 {
+  const LightGroup& root = known.Ways.Light();
   const Medium& smoke = this->Scene_.Smoke();
-  const bool far = skips && this->FarFrom(known.Ways.Light(), block);
+  Box bounds = smoke.BoxOf(smoke.Cell(block, {0, 0, 0}));
+  bounds.Add(
+    smoke.BoxOf(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1})));
+  if (Behind(root, bounds.Centre(), bounds.Size()))
+  {
+    return {};
+  }
+  const bool far = skips && this->FarFrom(root, block);
   BlockWays ways{block};
   if (far)
   {
     ways = this->TellWays(known, block, std::vector<bool>(block.Cells(), true), sums);
   }
-  if (!ways.Tell && LongestOf(block) > ToldWays::SmallestBlock)
+  if (!ways.Tell && block.LongestEdge() > ToldWays::SmallestBlock)
   {
     return this->AddPartsFluence(light, known, block, skips, sums);
   }
@@ -283,55 +342,18 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
       ways = this->WalkWays(known, block, asked, sums);
     }
   }
-  const auto add = [&](std::int64_t cell, double share, const Spectrum& value)
-  {
-    for (int band = 0; band < this->Scene_.Bands(); ++band)
-    {
-      sums[cell][band] += share * value[band];
-    }
-  };
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
-    {
-      // What is kept of a light near to the cell is taken from the sum again, to the same digits.
-      // The parts of a cell are measured each by itself.
-      const std::int64_t cell = smoke.Cell(block, place);
-      const std::optional<Spectrum> kept =
-        smoke.Parts().Find(cell) ? std::nullopt : this->KeptFluence(light, cell);
-      if (kept)
-      {
-        add(cell, 1.0, *kept);
-      }
-    });
+  // What is kept of a light near to a cell is taken from the sum again, to the same digits.
+  this->AddKept(light, block, sums);
   if (lit.Cells() == 0)
   {
     return {ways.Told, 0};
   }
   if (ways.Share < NegligibleShare)
   {
-    return {0, lit.Cells()};
+    return {0, static_cast<std::size_t>(std::count(asked.begin(), asked.end(), true))};
   }
-  std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
-  if (!ways.Extinction.empty())
-  {
-    ways.Cells.ForEachCell(
-      [&](const std::array<int, 3>& place) {
-        extinction[block.NumberIn(ways.Cells, place)] = ways.Extinction[ways.Cells.Number(place)];
-      });
-  }
-  const bool weak = ways.Share < WeakShare;
-  const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
-    ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
-    {
-      const std::size_t number = block.Number(place);
-      if (asked[number])
-      {
-        const std::int64_t cell = smoke.Cell(block, place);
-        add(cell, shown[number], this->CellFluence({light, cell, deepening[number], far, weak}));
-      }
-    });
+  ways.Far = far;
+  this->AddAsked(light, known, block, asked, shown, ways, sums);
   return {ways.Told, 0};
 }
 

@@ -128,6 +128,11 @@ Spectrum DirectLight::LitBoxFluence(const BoxLight& light, const Box& box, int s
   return value;
 }
 
+bool DirectLight::Behind(const LightGroup& root, const Vec3& centre, const Vec3& size)
+{
+  return glm::dot(centre - root.Centre, root.Normal) + 0.5 * glm::length(size) < -root.Radius;
+}
+
 Spectrum DirectLight::BoxFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size, int splits) const
 {
@@ -136,8 +141,7 @@ Spectrum DirectLight::BoxFluence(
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
   const double edge = LargestEdge(size) * root.Law.Sharpness();
-  // A box wholly behind the plate gets nothing.
-  if (glm::dot(from, root.Normal) + 0.5 * glm::length(size) < -root.Radius)
+  if (Behind(root, centre, size))
   {
     return {};
   }

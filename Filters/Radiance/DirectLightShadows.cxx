@@ -177,37 +177,27 @@ std::vector<Sight> DirectLight::SightsFrom(
   return sights;
 }
 
-DirectLight::KeptSights::KeptSights(const Medium::Block& block) : Kept(block)
+DirectLight::KeptSights::KeptSights(const Medium::Block& block)
+    : Kept(block.Enlarged()), Known(this->Kept.Cells())
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Kept.First[axis] -= 1;
-    this->Kept.Size[axis] += 2;
-  }
-  this->Known.resize(this->Kept.Cells());
 }
 
 std::vector<double> DirectLight::ShownIn(
-  std::size_t light, const Medium::Block& block, bool roughly, KeptSights& known) const
+  std::size_t light, const Medium::Block& block, bool roughly, KeptSights& sights) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  constexpr std::size_t None = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t Nowhere = std::numeric_limits<std::size_t>::max();
   // The cells of the block, then those across their faces that are not among them; and where among
   // what is kept they are, if they are there.
   std::vector<std::int64_t> cells;
   std::vector<std::size_t> kept;
-  const std::size_t most = roughly ? block.Cells() : known.Kept.Cells();
+  const std::size_t most = (roughly ? 1 : 3) * block.Cells();
   cells.reserve(most);
   kept.reserve(most);
   const auto take = [&](const std::array<int, 3>& place, std::int64_t cell)
   {
-    std::array<int, 3> within;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      within[axis] = block.First[axis] + place[axis] - known.Kept.First[axis];
-    }
     cells.push_back(cell);
-    kept.push_back(smoke.Cell(block, place) == cell ? known.Kept.Number(within) : None);
+    kept.push_back(smoke.Cell(block, place) == cell ? sights.Kept.NumberIn(block, place) : Nowhere);
   };
   block.ForEachCell(
     [&](const std::array<int, 3>& place) { take(place, smoke.Cell(block, place)); });
@@ -225,7 +215,7 @@ std::vector<double> DirectLight::ShownIn(
           next[axis] += face % 2 == 0 ? -1 : 1;
           const std::int64_t other = smoke.Neighbour(block, place, axis, face % 2);
           std::size_t& number = beside[block.Number(place)][face];
-          number = other < 0 ? None : cells.size();
+          number = other < 0 ? Nowhere : cells.size();
           if (next[axis] >= 0 && next[axis] < block.Size[axis] && smoke.Cell(block, next) == other)
           {
             number = block.Number(next);
@@ -237,14 +227,14 @@ std::vector<double> DirectLight::ShownIn(
         }
       });
   }
-  std::vector<Sight> sights(cells.size());
+  std::vector<Sight> seen(cells.size());
   std::vector<std::int64_t> unknown;
   std::vector<std::size_t> ofUnknown;
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    if (kept[i] != None && known.Known[kept[i]])
+    if (kept[i] != Nowhere && sights.Known[kept[i]])
     {
-      sights[i] = *known.Known[kept[i]];
+      seen[i] = *sights.Known[kept[i]];
       continue;
     }
     unknown.push_back(cells[i]);
@@ -254,10 +244,10 @@ std::vector<double> DirectLight::ShownIn(
   for (std::size_t answer = 0; answer < answers.size(); ++answer)
   {
     const std::size_t i = ofUnknown[answer];
-    sights[i] = answers[answer];
-    if (kept[i] != None)
+    seen[i] = answers[answer];
+    if (kept[i] != Nowhere)
     {
-      known.Known[kept[i]] = sights[i];
+      sights.Known[kept[i]] = seen[i];
     }
   }
   std::vector<double> shares;
@@ -268,17 +258,17 @@ std::vector<double> DirectLight::ShownIn(
     // of the light.
     const auto differs = [&](std::size_t other)
     {
-      return other != None && sights[other] != sights[cell] &&
+      return other != Nowhere && seen[other] != seen[cell] &&
              this->Scene_.Shapes().Visible(
                smoke.CellCentre(cells[cell]), smoke.CellCentre(cells[other]));
     };
     // Others are measured by themselves.
-    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->KeptFluence(light, cells[cell]);
+    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->Keeps(light, cells[cell]);
     const bool crossed =
-      asked && (sights[cell] == Sight::Parted ||
+      asked && (seen[cell] == Sight::Parted ||
                  (!roughly && std::any_of(beside[cell].begin(), beside[cell].end(), differs)));
     shares.push_back(crossed ? this->ShownShare(light, cells[cell], ShadowWays)
-                             : (sights[cell] == Sight::Whole ? 1.0 : 0.0));
+                             : (seen[cell] == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

@@ -31,7 +31,7 @@ public:
     ToldWays told(smoke, ways, this->Block_);
     if (allowed && this->There_ && told.WalkCorners() && told.CornersTell(*allowed))
     {
-      told.TellRest(2.0 * *allowed);
+      told.TellRest(std::vector<bool>(this->Block_.Cells(), true), 2.0 * *allowed);
       this->Told_ = told.Extinction();
     }
   }
@@ -62,13 +62,8 @@ private:
 
 LightWays::LightWays(
   const Medium& smoke, double scale, const LightGroup& light, const Medium::Block& block)
-    : Smoke_(smoke), Scale_(scale), Light_(light), Kept_(block)
+    : Smoke_(smoke), Scale_(scale), Light_(light), Kept_(block.Enlarged())
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Kept_.First[axis] -= 1;
-    this->Kept_.Size[axis] += 2;
-  }
   this->Walked_.assign(this->Kept_.Cells(), std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -36,7 +36,8 @@ public:
   /// Of ways around the centre of a cell.
   Deepening DeepeningOf(std::int64_t cell) const;
   /// The same of the cells of a block that are asked for.
-  /// @param asked of each cell of the block, x fastest
+  /// @param asked of each cell of the block, x fastest; others get no more than a Deepening of
+  /// zeros
   /// @param extinction means along the ways from its cells [1/m]; NaN: not known
   /// @param allowed by how much optical depths of ways from cells around the block may be off,
   /// where a few of them tell the rest; none: all are walked

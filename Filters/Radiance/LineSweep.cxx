@@ -29,7 +29,7 @@ constexpr double HitsASquare = 2.0;
 /// Hits that dark ones need to send on all of what a sweep found.
 constexpr double FewestHits = 0.25;
 
-/// Where one cell in so many, or more, has direct light that varies inside it, all are fetched.
+/// Where more than one cell in so many has direct light that varies inside it, all are fetched.
 constexpr std::size_t MuchVarying = 4;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.

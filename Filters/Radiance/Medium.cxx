@@ -224,7 +224,8 @@ const Medium::Grid& Medium::GridOf(std::int64_t number, std::array<int, 3>& inde
   const auto after = std::upper_bound(this->Grids_.begin(), this->Grids_.end(), cell,
     [](std::int64_t value, const Grid& grid) { return value < grid.FirstCell; });
   const Grid& grid = *(after - 1);
-  // Divisions of short integers take a fraction of the time; cells are counted by such ones.
+  // Divisions of short integers take a fraction of the time; a grid of more cells than they count
+  // would take hundreds of gigabytes.
   const auto local = static_cast<std::uint32_t>(cell - grid.FirstCell);
   const auto columns = static_cast<std::uint32_t>(grid.Size[0]);
   const auto rows = static_cast<std::uint32_t>(grid.Size[1]);

@@ -109,6 +109,18 @@ public:
     {
       return static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2];
     }
+    int LongestEdge() const { return std::max({this->Size[0], this->Size[1], this->Size[2]}); }
+    /// With a layer of cells more across each face, in or out of the grid.
+    Block Enlarged() const
+    {
+      Block larger = *this;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        larger.First[axis] -= 1;
+        larger.Size[axis] += 2;
+      }
+      return larger;
+    }
     /// Of a cell within the block, x fastest.
     std::size_t Number(const std::array<int, 3>& place) const
     {

@@ -18,12 +18,6 @@ constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 3> DiagonalBegin = {0.5, 0.25, 0.75};
 constexpr std::array<int, 3> DiagonalStep = {1, 1, -1};
 
-/// Along its longest edge.
-int Layers(const Medium::Block& block)
-{
-  return std::max({block.Size[0], block.Size[1], block.Size[2]});
-}
-
 /// The cell of a block so many steps along the diagonal.
 std::array<int, 3> PlaceOnDiagonal(const Medium::Block& block, int steps)
 {
@@ -86,7 +80,7 @@ double ToldWays::Depth(double extinction, double distance) const
 
 bool ToldWays::WalkCorners()
 {
-  bool serves = Layers(this->Block_) >= SmallestBlock;
+  bool serves = this->Block_.LongestEdge() >= SmallestBlock;
   for (int index = 0; index < 8 && serves; ++index)
   {
     this->Own_[index] =
@@ -100,7 +94,7 @@ bool ToldWays::WalkCorners()
 bool ToldWays::CornersTell(double allowed)
 {
   bool told = true;
-  for (int i = 0; i < Layers(this->Block_) && told; ++i)
+  for (int i = 0; i < this->Block_.LongestEdge() && told; ++i)
   {
     const std::array<int, 3> place = PlaceOnDiagonal(this->Block_, i);
     const double interpolated = Trilinear(this->Corners_, this->Block_, place);
@@ -111,7 +105,7 @@ bool ToldWays::CornersTell(double allowed)
   return told;
 }
 
-bool ToldWays::TellRest(double odd)
+bool ToldWays::TellRest(const std::vector<bool>& asked, double odd)
 {
   const double edge =
     LargestEdge(this->Smoke_.CellSize(this->Smoke_.Cell(this->Block_, {0, 0, 0})));
@@ -120,15 +114,20 @@ bool ToldWays::TellRest(double odd)
     [&](const std::array<int, 3>& place)
     {
       const std::int64_t cell = this->Smoke_.Cell(this->Block_, place);
+      const std::size_t number = this->Block_.Number(place);
       const double own = Trilinear(this->Own_, this->Block_, place);
       if (this->Depth(this->Smoke_.Extinction(cell) - own, edge) > odd)
       {
-        this->Walk(place);
-        any = true;
+        if (asked[number])
+        {
+          this->Walk(place);
+          any = true;
+        }
         return;
       }
-      double& extinction = this->Extinction_[this->Block_.Number(place)];
-      this->Told_ += std::isnan(extinction) && !this->Smoke_.Parts().Find(cell) ? 1 : 0;
+      double& extinction = this->Extinction_[number];
+      const bool told = asked[number] && std::isnan(extinction);
+      this->Told_ += told && !this->Smoke_.Parts().Find(cell) ? 1 : 0;
       extinction = Trilinear(this->Corners_, this->Block_, place);
     });
   return any;

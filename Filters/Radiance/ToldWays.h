@@ -29,19 +29,19 @@ public:
   /// @param allowed error of an optical depth
   bool CornersTell(double allowed);
   /// Lets the corners tell of all others but of cells whose own smoke differs from what the corners
-  /// tell of it: they may lie in a duct or a post as small as themselves, and are walked. Returns
-  /// whether there are any.
-  /// @param odd optical depth along an edge of a cell by which its smoke must differ, at least
-  bool TellRest(double odd);
-  /// Walks the ways from the cells that are asked for.
+  /// tell of it: they may lie in a duct or a post as small as themselves, and are walked where they
+  /// are asked for. Returns whether any are.
   /// @param asked of each cell of the block, x fastest
+  /// @param odd optical depth along an edge of a cell by which its smoke must differ, at least
+  bool TellRest(const std::vector<bool>& asked, double odd);
+  /// Walks the ways from the cells that are asked for.
   void Walk(const std::vector<bool>& asked);
 
   /// Mean extinction along each way at 633 nm, x fastest; NaN: not known [1/m].
   const std::vector<double>& Extinction() const { return this->Extinction_; }
   /// The smallest of those known.
   double Least() const;
-  /// Whole cells whose ways were told.
+  /// Whole cells that are asked for whose ways were told.
   std::size_t Told() const { return this->Told_; }
 
 private:

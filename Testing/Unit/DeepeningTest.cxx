@@ -120,8 +120,17 @@ void ForEachInBlocks(
       {
         asked[cell] = cell % 3 != 1;
       }
-      const std::vector<double> unknown(block.Cells(), std::numeric_limits<double>::quiet_NaN());
-      const std::vector<Deepening> around = ways.DeepeningIn(block, asked, unknown, allowed, false);
+      // Of some cells the ways are known.
+      std::vector<double> known(block.Cells(), std::numeric_limits<double>::quiet_NaN());
+      block.ForEachCell(
+        [&](const std::array<int, 3>& place)
+        {
+          if (place[1] % 2 == 0)
+          {
+            known[block.Number(place)] = alone.Extinction(smoke.Cell(block, place));
+          }
+        });
+      const std::vector<Deepening> around = ways.DeepeningIn(block, asked, known, allowed, false);
       block.ForEachCell(
         [&](const std::array<int, 3>& place)
         {
