@@ -154,13 +154,13 @@ TEST(Slab, ThickestLong)
 // hangs on few lines. Layers of a quarter and of half a mean free path, to 1 %, as coarse layers.
 TEST(Slab, WhiteAndDeep)
 {
-  CheckRows(16.0, 16.0, {0.99}, 65, 0.01);
-  CheckRows(32.0, 32.0, {1.0}, 65, 0.01);
+  CheckRows(16.0, 16.0, {0.99, 1.0}, 65, 0.01);
 }
 
 TEST(Slab, WhiteAndDeepLong)
 {
-  CheckRows(16.0, 16.0, {0.95, 1.0}, 65, 0.01);
+  CheckRows(16.0, 16.0, {0.95}, 65, 0.01);
+  CheckRows(32.0, 32.0, {1.0}, 65, 0.01);
 }
 
 // Clear air between deep white smoke changes nothing: what crosses it comes back many times.
