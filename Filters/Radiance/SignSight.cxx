@@ -18,6 +18,9 @@ constexpr double BlocksAcross = 8.0;
 /// at most. Where smoke would cut an edge into more blocks than so many, twice the change is
 /// allowed, and so on.
 constexpr double LargestChange = 0.3;
+/// Share of that by which the depth in the middle of a block may be off the mean of those at its
+/// ends: neighbours do not tell of smoke that is uneven inside a block.
+constexpr double BendShare = 0.1;
 /// The same where neighbours do not tell how it changes inside a block, since there are too few of
 /// them or pixels average them: its middle stands for all of it, to the square of the change over
 /// 24 in its mean and over 12 in its mean square.
@@ -177,7 +180,9 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     for (std::size_t line = 0; line < Lines.size() && halvings > 0; ++line)
     {
       const auto [least, most] = std::minmax({first[line], within[line], last[line]});
-      uneven = uneven || (most - least > change && least < clearest + DeepestBlock);
+      const double bend = std::abs(within[line] - 0.5 * (first[line] + last[line]));
+      uneven = uneven || ((most - least > change || bend > BendShare * change) &&
+                           least < clearest + DeepestBlock);
     }
     if (!uneven)
     {
