@@ -143,9 +143,7 @@ private:
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
-  /// Whether a light is near to a cell, and its fluence there kept.
-  bool Keeps(std::size_t light, std::int64_t cell) const;
-  /// Mean fluence over a cell of such a light; none of others.
+  /// Mean fluence over a cell of a light that is near to it; none where it is not.
   std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
   /// Mean fluence over a part of a cell, of whatever light.
   Spectrum SampledFluence(std::size_t light, const CellPart& part) const;
@@ -191,8 +189,8 @@ private:
   /// What cells see of a light from right beside their centres.
   std::vector<Sight> SightsFrom(const LightGroup& root, std::span<const std::int64_t> cells) const;
   /// Share of a light that is not hidden from the cells of a block: of most of them their centres
-  /// tell, others are crossed by the edge of a shadow. Cells that walls cut, or that the light is
-  /// near to, are not asked.
+  /// tell, others are crossed by the edge of a shadow. 0 of cells that walls cut, that the light is
+  /// near to, or that lie behind it: they do not get it this way.
   /// @param roughly whether their centres do for all
   /// @param sights kept of a block that this one is part of
   std::vector<double> ShownIn(
@@ -246,10 +244,9 @@ private:
   struct BlockWays
   {
     Medium::Block Cells;
-    /// Mean extinction along each, x fastest; NaN, or none at all: not known [1/m].
+    /// Mean extinction along each, x fastest; NaN: not known; none at all of a light that is not
+    /// far [1/m].
     std::vector<double> Extinction{};
-    /// Whether one way stands for all ways from a place.
-    bool Far = false;
     /// Whether a few of them tell the rest, and how many cells' are told so.
     bool Tell = false;
     std::size_t Told = 0;
@@ -280,10 +277,6 @@ private:
   /// Walks those that are asked for.
   BlockWays WalkWays(const Known& known, const Medium::Block& block, const std::vector<bool>& asked,
     const std::vector<Spectrum>& sums) const;
-  /// The cells of a block whose light is to be found: they see the light, from its front, which is
-  /// not near to them, and are whole.
-  std::vector<bool> AskedIn(
-    std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const;
   /// Adds what is kept of the light in a block.
   void AddKept(std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const;
   /// Adds the light to the cells of a block that are asked for.

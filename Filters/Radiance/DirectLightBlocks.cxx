@@ -236,24 +236,6 @@ DirectLight::BlockWork DirectLight::AddPartsFluence(std::size_t light, Known& kn
   return work;
 }
 
-std::vector<bool> DirectLight::AskedIn(
-  std::size_t light, const Medium::Block& block, const std::vector<double>& shown) const
-{
-  const Medium& smoke = this->Scene_.Smoke();
-  const LightGroup& root = this->Scene_.Lights().Root(light);
-  std::vector<bool> asked(block.Cells());
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
-    {
-      const std::int64_t cell = smoke.Cell(block, place);
-      const std::size_t number = block.Number(place);
-      asked[number] = shown[number] > 0.0 && !smoke.Parts().Find(cell) &&
-                      !this->Keeps(light, cell) &&
-                      !Behind(root, smoke.CellCentre(cell), smoke.CellSize(cell));
-    });
-  return asked;
-}
-
 void DirectLight::AddKept(
   std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const
 {
@@ -276,8 +258,9 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
   std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
+  const bool far = !ways.Extinction.empty();
   std::vector<double> extinction(block.Cells(), std::numeric_limits<double>::quiet_NaN());
-  if (!ways.Extinction.empty())
+  if (far)
   {
     ways.Cells.ForEachCell(
       [&](const std::array<int, 3>& place) {
@@ -295,7 +278,7 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       {
         const std::int64_t cell = smoke.Cell(block, place);
         Add(sums[cell], shown[number],
-          this->CellFluence({light, cell, deepening[number], ways.Far, weak}));
+          this->CellFluence({light, cell, deepening[number], far, weak}));
       }
     });
 }
@@ -328,7 +311,9 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   }
   const std::vector<double> shown =
     this->ShownIn(light, block, ways.Share < WeakShare, known.Sights);
-  const std::vector<bool> asked = this->AskedIn(light, block, shown);
+  std::vector<bool> asked(shown.size());
+  std::transform(
+    shown.begin(), shown.end(), asked.begin(), [](double share) { return share > 0.0; });
   const Medium::Block lit = BlockOf(block, asked);
   if (far && !ways.Tell && lit.Cells() > 0)
   {
@@ -352,7 +337,6 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   {
     return {0, static_cast<std::size_t>(std::count(asked.begin(), asked.end(), true))};
   }
-  ways.Far = far;
   this->AddAsked(light, known, block, asked, shown, ways, sums);
   return {ways.Told, 0};
 }

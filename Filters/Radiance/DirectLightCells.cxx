@@ -43,20 +43,18 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
   return this->Sight_.OfAll(root, centre) == Sight::Whole;
 }
 
-bool DirectLight::Keeps(std::size_t light, std::int64_t cell) const
-{
-  const int place = this->Near_ ? this->Near_->Place(cell) : -1;
-  return place >= 0 && this->Near_->Find(place, light) >= 0;
-}
-
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const
 {
-  if (!this->Keeps(light, cell))
+  const int place = this->Near_ ? this->Near_->Place(cell) : -1;
+  if (place < 0)
   {
     return std::nullopt;
   }
-  const int place = this->Near_->Place(cell);
   const int near = this->Near_->Find(place, light);
+  if (near < 0)
+  {
+    return std::nullopt;
+  }
   Spectrum mean{};
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {

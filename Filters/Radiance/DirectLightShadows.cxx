@@ -240,7 +240,8 @@ std::vector<double> DirectLight::ShownIn(
     unknown.push_back(cells[i]);
     ofUnknown.push_back(i);
   }
-  const std::vector<Sight> answers = this->SightsFrom(this->Scene_.Lights().Root(light), unknown);
+  const LightGroup& root = this->Scene_.Lights().Root(light);
+  const std::vector<Sight> answers = this->SightsFrom(root, unknown);
   for (std::size_t answer = 0; answer < answers.size(); ++answer)
   {
     const std::size_t i = ofUnknown[answer];
@@ -262,13 +263,14 @@ std::vector<double> DirectLight::ShownIn(
              this->Scene_.Shapes().Visible(
                smoke.CellCentre(cells[cell]), smoke.CellCentre(cells[other]));
     };
-    // Others are measured by themselves.
-    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->Keeps(light, cells[cell]);
+    // Others are measured by themselves, or get nothing.
+    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->KeptFluence(light, cells[cell]) &&
+                       !Behind(root, smoke.CellCentre(cells[cell]), smoke.CellSize(cells[cell]));
     const bool crossed =
       asked && (seen[cell] == Sight::Parted ||
                  (!roughly && std::any_of(beside[cell].begin(), beside[cell].end(), differs)));
     shares.push_back(crossed ? this->ShownShare(light, cells[cell], ShadowWays)
-                             : (seen[cell] == Sight::Whole ? 1.0 : 0.0));
+                             : (asked && seen[cell] == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

@@ -18,13 +18,13 @@ constexpr double BlocksAcross = 8.0;
 /// at most. Where smoke would cut an edge into more blocks than so many, twice the change is
 /// allowed, and so on.
 constexpr double LargestChange = 0.3;
-/// Share of that by which the depth in the middle of a block may be off the mean of those at its
-/// ends: neighbours do not tell of smoke that is uneven inside a block.
-constexpr double BendShare = 0.1;
 /// The same where neighbours do not tell how it changes inside a block, since there are too few of
 /// them or pixels average them: its middle stands for all of it, to the square of the change over
 /// 24 in its mean and over 12 in its mean square.
 constexpr double LargestChangeAlone = 0.1;
+/// Share of either by which the depth in the middle of a block may be off the mean of those at its
+/// ends: there smoke is uneven inside the block.
+constexpr double BendShare = 0.1;
 constexpr std::size_t FewestBlocks = 3;
 constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
