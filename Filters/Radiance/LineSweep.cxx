@@ -21,8 +21,9 @@ namespace
 /// would bring less noise than is asked for.
 constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
-/// Share of the lines that a thin sweep has at least, of those that a small tolerance needs.
+/// Share of a sweep's lines that a thin one has at least, and how many it has then.
 constexpr double ThinShare = 0.25;
+constexpr double FewestThinLines = 128.0;
 /// Hits that sides need in a sweep, over the square of their reflectance: of the variance that a
 /// sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
 constexpr double HitsASquare = 2.0;
@@ -46,8 +47,10 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       Lines_(ChooseLines(scene, field, band, tolerance)), ThinLines_(Lines_)
 {
   const bool often = ScattersOften(scene, band);
-  const double share = often ? 1.0 : std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0);
-  this->Lines_ = this->Lines_.Thinned(share);
+  if (!often)
+  {
+    this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
+  }
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
@@ -90,8 +93,8 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), bounds[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
-  this->ThinLines_ =
-    this->ThinLines_.Thinned(std::min(share, std::max(ThinShare, share * this->HitsShare())));
+  this->ThinLines_ = this->Lines_.Thinned(std::min(1.0,
+    std::max({ThinShare, this->HitsShare(), FewestThinLines / static_cast<double>(this->Lines())})));
   this->Steps_ = CellSteps(scene, this->Extinction_, this->CellCrossings_, often);
   if (often)
   {
