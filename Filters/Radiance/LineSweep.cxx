@@ -93,8 +93,9 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), bounds[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
-  this->ThinLines_ = this->Lines_.Thinned(std::min(1.0,
-    std::max({ThinShare, this->HitsShare(), FewestThinLines / static_cast<double>(this->Lines())})));
+  const double fewest = FewestThinLines / static_cast<double>(this->Lines());
+  this->ThinLines_ =
+    this->Lines_.Thinned(std::min(1.0, std::max({ThinShare, this->HitsShare(), fewest})));
   this->Steps_ = CellSteps(scene, this->Extinction_, this->CellCrossings_, often);
   if (often)
   {
