@@ -172,9 +172,8 @@ TEST(PointSource, AirlightByTheFunctionF)
 // 1 to 10 mean free paths; walls of the volume are 14 mean free paths away, from beyond which less
 // than exp(-8) of the fluence at 10 comes back. The source's own neighbourhood is steep: cells grow
 // from 0.1 mean free paths to 0.6. A flat source in cells of h mean free paths errs by h^2 / 12 of
-// the local fall, 2 to 3 % in the coarsest. Far off, where few lines pass, the cells beside the
-// axes count, too, whose centres are farther from the source by 0.0025 mean free paths at most, 0.3
-// %.
+// the local fall, 2 to 3 % in the coarsest. Far off, where few lines pass, cells beside the axes
+// count, too: their centres are farther away by at most 0.0025 mean free paths, or 0.3 %.
 TEST(PointSource, InfiniteMediumLong)
 {
   report::Head("Fluence of a point source in an infinite medium");
