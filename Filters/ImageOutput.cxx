@@ -47,8 +47,10 @@ void StoreMeasurement(const SignMeasurement& result, int sign, vtkImageData& ima
   number("MeasuredSign", static_cast<double>(sign));
   number("Contrast", result.Contrast);
   number("ContrastError", result.ContrastError);
+  number("ContrastDivisionError", result.ContrastDivisionError);
   number("PerceivedContrast", result.PerceivedContrast);
   number("PerceivedContrastError", result.PerceivedContrastError);
+  number("PerceivedContrastDivisionError", result.PerceivedContrastDivisionError);
   number("WebberContrast", result.WebberContrast);
   number("UL924Contrast", result.UL924Contrast);
   number("MeanLuminance", result.MeanLuminance);

@@ -233,9 +233,10 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   const std::size_t places = map.Status.size();
   ranks.Complete(map.Status, places);
   ranks.Complete(map.BestSign, places);
-  for (std::vector<float>* const values : {&map.Visibility, &map.VisibilityError, &map.OpticalDepth,
-         &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance, &map.Contrast,
-         &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction})
+  for (std::vector<float>* const values :
+    {&map.Visibility, &map.VisibilityError, &map.VisibilityDivisionError, &map.OpticalDepth,
+      &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance, &map.Contrast,
+      &map.PerceivedContrast, &map.SignLuminance, &map.VisibleFraction})
   {
     ranks.Complete(*values, places);
   }
@@ -256,6 +257,8 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
   const smokevis::SignList signs = this->Implementation->Input.Signs();
   smokevis::AddPointValues<vtkFloatArray>(*output, "Visibility", map.Visibility);
   smokevis::AddPointValues<vtkFloatArray>(*output, "VisibilityError", map.VisibilityError);
+  smokevis::AddPointValues<vtkFloatArray>(
+    *output, "VisibilityDivisionError", map.VisibilityDivisionError);
   smokevis::AddPointValues<vtkFloatArray>(*output, "VisibleProbability", map.VisibleProbability);
   smokevis::AddPointValues<vtkFloatArray>(*output, "EyeLuminance", map.EyeLuminance);
   smokevis::AddPointValues<vtkIntArray>(*output, "BestSign", map.BestSign);

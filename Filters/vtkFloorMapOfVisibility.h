@@ -4,8 +4,10 @@
  *
  * Input: the output of vtkSmokeLightField, fresh or read from a file. Output: an image whose points
  * are the centres of the floor's cells, at eye level, with the point arrays
- * - `Visibility`, float, the largest perceived contrast over all signs in view, and its standard
- * error `VisibilityError`; `BestSign`, int, the id of that sign, -1: none;
+ * - `Visibility`, float, the largest perceived contrast over all signs in view, its standard error
+ * `VisibilityError` by the light field's noise, and `VisibilityDivisionError`, the one by how
+ * uneven the smoke is between the places of the plate that are looked at; `BestSign`, int, the id
+ * of that sign, -1: none;
  * - `Contrast` (standard deviation over mean), `PerceivedContrast`, `SignLuminance` (mean of the
  * lit cells as it arrives [cd/m2]) and `VisibleFraction`, float, a component a sign, named after
  * it;

@@ -22,7 +22,9 @@
  * Field data, one double each, measured over the front of the target sign (without a target: the
  * sign that covers the most pixels) at the observer's acuity, not at the pixels of this image:
  * `Contrast` (standard deviation over mean), `PerceivedContrast` (standard deviation over mean plus
- * DarkLuminance) with `ContrastError` and `PerceivedContrastError`, `WebberContrast`,
+ * DarkLuminance) with their standard errors by the light field's noise, `ContrastError` and
+ * `PerceivedContrastError`, and by how uneven the smoke is between the places of the plate that are
+ * looked at, `ContrastDivisionError` and `PerceivedContrastDivisionError`; `WebberContrast`,
  * `UL924Contrast`, `MeanLuminance`, `MeanLuminanceError`, `LitLuminance`, `UnlitLuminance` [cd/m2],
  * `VisibleFraction`, `OpticalDepthToSign`, `MeasuredSign` (its id, -1: none), and
  * `SensorIlluminance` [lx], the sign's mean illuminance on the sensor as ISO 12232 has it,

@@ -1,5 +1,6 @@
 #include "Contrast.h"
 
+#include "DivisionError.h"
 #include "PixelMoments.h"
 #include "SignSight.h"
 #include "SignVeil.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <glm/gtc/constants.hpp>
@@ -21,8 +23,11 @@ namespace
 
 /// Standard error of the contrast above which the veil is gathered.
 constexpr double UncertainContrast = 0.005;
+/// Standard error that uneven smoke leaves the perceived one above which the plate is divided more
+/// finely.
+constexpr double UnevenContrast = 0.002;
 /// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
-/// of exponentials are no quadratics.
+/// of exponentials are no quadratics. Also of what is unknown of it.
 constexpr double MostChange = 1.0;
 /// A sign whose parts are all fainter than this share of the observer's own noise is not worth
 /// gathering for: it stands out by a hundredth at most.
@@ -37,14 +42,17 @@ double BandWeight(const View& view, int band)
 class SignLook
 {
 public:
-  SignLook(const View& view, std::size_t sign, const Vec3& eye, const Observer& observer)
+  /// @param blocks of the plate (SignSight)
+  SignLook(
+    const View& view, std::size_t sign, const Vec3& eye, const Observer& observer, double blocks)
       : View_(view), Lights_(view.TheScene().Lights()), Plate_(Lights_.Signs()[sign]), Eye_(eye),
-        Observer_(observer), Bands_(view.TheScene().Bands()),
-        Sight_(view, Plate_, eye, observer.Acuity)
+        Observer_(observer), Bands_(view.TheScene().Bands()), Fine_(blocks > UsualBlocks),
+        Sight_(view, Plate_, eye, observer.Acuity, blocks)
   {
   }
 
-  SignMeasurement Measure(double cutOff);
+  /// None where uneven smoke calls for more blocks.
+  std::optional<SignMeasurement> Measure(double cutOff);
 
 private:
   /// Optical depth at 633 nm of the smoke before a zone's middle.
@@ -69,12 +77,15 @@ private:
   const Vec3& Eye_;
   const Observer& Observer_;
   int Bands_;
+  bool Fine_;
   SignSight Sight_;
   /// Of each part.
   std::vector<std::vector<SeenBlock>> Blocks_;
   std::vector<ZoneChanges> Changes_;
   /// Changes of the optical depth at 633 nm over the zones of each part.
   std::vector<std::vector<glm::dvec2>> DepthChanges_;
+  /// What is unknown of the largest optical depth of any band before the zones of each part.
+  std::vector<std::vector<double>> Unevenness_;
   /// Of each band.
   std::vector<std::unique_ptr<SignVeil>> Veils_;
   SignMeasurement Result_;
@@ -139,6 +150,12 @@ void SignLook::FillFactors()
     {
       change = glm::clamp(change, -MostChange, MostChange);
     }
+    std::vector<double>& unevenness =
+      this->Unevenness_.emplace_back(this->Changes_.back().Unevenness(depths));
+    for (double& error : unevenness)
+    {
+      error = std::min(MostChange, this->View_.TheScene().LargestScale() * error);
+    }
     std::vector<SeenBlock> zones;
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
@@ -159,7 +176,7 @@ void SignLook::MakeVeils()
   const std::vector<SeenPlace>& places = this->Sight_.Places();
   for (int band = 0; band < this->Bands_; ++band)
   {
-    if (this->Sight_.PartlyHidden())
+    if (this->Sight_.PartlyHidden() || this->Fine_)
     {
       this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places));
     }
@@ -258,9 +275,12 @@ void SignLook::FillMeans()
 void SignLook::FillContrast()
 {
   Sums sums;
+  DivisionError division;
   for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
-    AddPixels(this->Sight_.Parts()[index].Pattern, this->Blocks_[index], sums);
+    const SignSight::Part& part = this->Sight_.Parts()[index];
+    AddPixels(part.Pattern, this->Blocks_[index], sums);
+    division.Add(part.Pattern, this->Blocks_[index], part.ZoneOf, this->Unevenness_[index]);
   }
   SignMeasurement& result = this->Result_;
   const ResampledMoments resampled = sums.Get();
@@ -268,6 +288,9 @@ void SignLook::FillContrast()
   Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
   Jackknife(resampled, this->Observer_.DarkLuminance, result.PerceivedContrast,
     result.PerceivedContrastError);
+  result.ContrastDivisionError = division.OfRatio(resampled[0], sums.Weight, 0.0);
+  result.PerceivedContrastDivisionError =
+    division.OfRatio(resampled[0], sums.Weight, this->Observer_.DarkLuminance);
 }
 
 void SignLook::FillResult()
@@ -277,11 +300,11 @@ void SignLook::FillResult()
   this->FillContrast();
 }
 
-SignMeasurement SignLook::Measure(double cutOff)
+std::optional<SignMeasurement> SignLook::Measure(double cutOff)
 {
   if (!(this->Sight_.Seen() > 0.0))
   {
-    return {};
+    return SignMeasurement{};
   }
   SignMeasurement& result = this->Result_;
   result.InView = true;
@@ -291,15 +314,19 @@ SignMeasurement SignLook::Measure(double cutOff)
     this->FillContrast();
     if (result.PerceivedContrast < cutOff)
     {
-      return {.InView = true, .BelowCutOff = true};
+      return SignMeasurement{.InView = true, .BelowCutOff = true};
     }
   }
   result.VisibleFraction = this->Sight_.VisibleFraction();
   this->MakeVeils();
   this->FillResult();
-  const bool uncertain = result.ContrastError > UncertainContrast;
+  if (!this->Fine_ && result.PerceivedContrastDivisionError > UnevenContrast)
+  {
+    return std::nullopt;
+  }
   const bool lost = std::max(result.LitLuminance, result.UnlitLuminance) <
                     FaintShare * this->Observer_.DarkLuminance;
+  const bool uncertain = result.ContrastError > UncertainContrast;
   if (uncertain && !lost)
   {
     for (const std::unique_ptr<SignVeil>& veil : this->Veils_)
@@ -309,6 +336,7 @@ SignMeasurement SignLook::Measure(double cutOff)
     this->FillResult();
   }
   result.LeftUncertain = uncertain && result.Rays == 0;
+  result.Uneven = this->Fine_;
   return result;
 }
 
@@ -317,7 +345,9 @@ SignMeasurement SignLook::Measure(double cutOff)
 SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer, double cutOff)
 {
-  return SignLook(view, sign, eye, observer).Measure(cutOff);
+  const std::optional<SignMeasurement> usual =
+    SignLook(view, sign, eye, observer, UsualBlocks).Measure(cutOff);
+  return usual ? *usual : SignLook(view, sign, eye, observer, ManyBlocks).Measure(cutOff).value();
 }
 
 } // namespace smokevis

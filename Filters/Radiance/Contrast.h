@@ -24,12 +24,15 @@ struct SignMeasurement
   bool BelowCutOff = false;
   /// Share of the plate (by solid angle) that shows, 0 to 1.
   double VisibleFraction = 0.0;
-  /// Standard deviation over mean of the luminance, and its standard error.
+  /// Standard deviation over mean of the luminance, its standard error by the light field's noise,
+  /// and the one by how uneven the smoke is between the places of the plate that are looked at.
   double Contrast = 0.0;
   double ContrastError = 0.0;
-  /// Standard deviation over (mean + DarkLuminance), and its standard error.
+  double ContrastDivisionError = 0.0;
+  /// Standard deviation over (mean + DarkLuminance), and its standard errors.
   double PerceivedContrast = 0.0;
   double PerceivedContrastError = 0.0;
+  double PerceivedContrastDivisionError = 0.0;
   /// (lit - unlit) / unlit.
   double WebberContrast = 0.0;
   /// (lit - unlit) / lit.
@@ -46,11 +49,15 @@ struct SignMeasurement
   /// Whether it knew it too badly, but nothing was gathered: the sign is lost in the eye's own
   /// noise, or no smoke scatters light on the way to it.
   bool LeftUncertain = false;
+  /// Whether the smoke before the plate is so uneven that it was looked at in more places.
+  bool Uneven = false;
 };
 
 /// Measures a sign (index into EmitterSet::Signs) from an eye point. Where the light field leaves
 /// its contrast uncertain by more than 0.005, the veil is gathered (View::GatherVeil), unless the
-/// sign is fainter than a hundredth of the dark luminance.
+/// sign is fainter than a hundredth of the dark luminance. Where uneven smoke leaves the perceived
+/// contrast uncertain by more than 0.002, the plate is divided more finely, with a ray for the veil
+/// to each part.
 /// @param cutOff a sign whose own light, without the veil, has a smaller perceived contrast is
 /// measured no further: an even veil can only lower it, and an uneven one is not the sign
 SignMeasurement MeasureSign(const View& view, std::size_t sign, const Vec3& eye,

@@ -34,6 +34,7 @@ struct Counts
   std::atomic<std::size_t> Hidden{0};
   std::atomic<std::size_t> Gathered{0};
   std::atomic<std::size_t> Uncertain{0};
+  std::atomic<std::size_t> Uneven{0};
   std::atomic<std::size_t> Rays{0};
 };
 
@@ -84,6 +85,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
     counts.Gathered += measured.Rays > 0 ? 1 : 0;
     counts.Rays += measured.Rays;
     counts.Uncertain += measured.LeftUncertain ? 1 : 0;
+    counts.Uneven += measured.Uneven ? 1 : 0;
     const std::size_t index = place * map.Signs + sign;
     map.Contrast[index] = static_cast<float>(measured.Contrast);
     map.PerceivedContrast[index] = static_cast<float>(measured.PerceivedContrast);
@@ -95,6 +97,8 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       map.BestSign[place] = lights.Signs()[sign].Id;
       map.Visibility[place] = static_cast<float>(measured.PerceivedContrast);
       map.VisibilityError[place] = static_cast<float>(measured.PerceivedContrastError);
+      map.VisibilityDivisionError[place] =
+        static_cast<float>(measured.PerceivedContrastDivisionError);
       map.VisibleProbability[place] = static_cast<float>(VisibleProbability(
         measured.PerceivedContrast, options.ContrastThreshold, options.ThresholdSpread));
       map.EyeLuminance[place] = static_cast<float>(observer.DarkLuminance);
@@ -128,8 +132,9 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   const auto places = static_cast<std::size_t>(options.PlacesX) * options.PlacesY;
   map.Status.assign(places, PlaceStatus::NoSignInView);
   map.BestSign.assign(places, -1);
-  for (std::vector<float>* values : {&map.Visibility, &map.VisibilityError, &map.OpticalDepth,
-         &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance})
+  for (std::vector<float>* values :
+    {&map.Visibility, &map.VisibilityError, &map.VisibilityDivisionError, &map.OpticalDepth,
+      &map.JinVisibility, &map.VisibleProbability, &map.EyeLuminance})
   {
     values->assign(places, 0.0F);
   }
@@ -157,6 +162,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   say("views of signs not gathered for", counts.Uncertain,
     "as uncertain, but lost in the eye's own noise, or no smoke scatters on the way");
   say("rays gathered by views of signs", counts.Rays, "they tell the veil in the dark");
+  say("views of signs divided finely", counts.Uneven, "the smoke before the sign is uneven");
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");
   say("views of signs skipped", counts.Hidden, "the sign is hidden");

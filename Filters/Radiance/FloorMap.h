@@ -53,9 +53,11 @@ struct FloorMap
 {
   std::size_t Signs = 0;
   std::vector<PlaceStatus> Status;
-  /// Largest perceived contrast, its standard error, the sign's id (-1: none), and along the line
+  /// Largest perceived contrast, its standard errors by the light field's noise and by the division
+  /// of the sign's plate, the sign's id (-1: none), and along the line
   /// to that sign the optical depth and Jin's visibility 3/K [m] of the mean extinction.
-  std::vector<float> Visibility, VisibilityError, OpticalDepth, JinVisibility;
+  std::vector<float> Visibility, VisibilityError, VisibilityDivisionError, OpticalDepth,
+    JinVisibility;
   /// Share of observers who see a sign, 0 to 1, and the equivalent luminance of the eye's noise,
   /// glare and adaptation when looking at the best sign [cd/m2].
   std::vector<float> VisibleProbability, EyeLuminance;

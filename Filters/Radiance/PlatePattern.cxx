@@ -75,6 +75,19 @@ PatternAxis::PatternAxis(const std::vector<double>& borders, int pixels)
   this->Pixels = std::max(1, pixels);
 }
 
+std::vector<double> PatternAxis::Borders() const
+{
+  std::vector<double> borders = {this->Ends.front()};
+  for (std::size_t piece = 0; piece < this->Block.size(); ++piece)
+  {
+    if (piece + 1 == this->Block.size() || this->Block[piece + 1] != this->Block[piece])
+    {
+      borders.push_back(this->Ends[piece + 1]);
+    }
+  }
+  return borders;
+}
+
 PlatePattern::PlatePattern(
   const std::vector<PatternCell>& cells, const PatternAxis& across, const PatternAxis& up)
     : Fine_(across.Fine && up.Fine), Blocks_(across.Blocks * up.Blocks)

@@ -43,6 +43,9 @@ struct PatternAxis
   /// @param borders ends of the blocks, from 0 to 1; they give way to the pixels
   /// @param pixels number of pixels of equal size; 0: there are none, each place is one
   PatternAxis(const std::vector<double>& borders, int pixels);
+
+  /// Ends of the blocks.
+  std::vector<double> Borders() const;
 };
 
 /// A block of the plate.

@@ -12,8 +12,6 @@ namespace smokevis
 namespace
 {
 
-/// Blocks of the plate along its longer side, at least.
-constexpr double BlocksAcross = 8.0;
 /// A block over which the optical depth from the eye changes by more than this is halved, so often
 /// at most. Where smoke would cut an edge into more blocks than so many, twice the change is
 /// allowed, and so on.
@@ -78,14 +76,15 @@ glm::dvec2 MiddleOf(const PatternBlock& block)
 
 } // namespace
 
-SignSight::SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity)
+SignSight::SignSight(
+  const View& view, const Sign& sign, const Vec3& eye, double acuity, double blocks)
     : View_(view), Lights_(view.TheScene().Lights()), Plate_(sign), Eye_(eye),
       Across_(Lights_, sign, 0), Up_(Lights_, sign, 1), EdgeU_(sign.Corners[1] - sign.Corners[0]),
       EdgeV_(sign.Corners[3] - sign.Corners[0]), Pixels_(this->Pixels(acuity)),
       Lit_(LitCells(Lights_, sign))
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, sign, eye);
-  const PlateBorders borders = this->Borders();
+  const PlateBorders borders = this->Borders(blocks);
   this->AddWhole(facets, borders);
   if (!this->Resolved() || facets.size() > MostCutFacets)
   {
@@ -133,11 +132,11 @@ std::array<int, 2> SignSight::Pixels(double acuity) const
   return {std::max(1, static_cast<int>(wide)), std::max(1, static_cast<int>(high))};
 }
 
-PlateBorders SignSight::Borders() const
+PlateBorders SignSight::Borders(double blocks) const
 {
   const double width = glm::length(this->EdgeU_);
   const double height = glm::length(this->EdgeV_);
-  const double largest = std::max(width, height) / BlocksAcross;
+  const double largest = std::max(width, height) / blocks;
   return {this->CutBySmoke(BlockBorders(this->Across_, largest / width), 0),
     this->CutBySmoke(BlockBorders(this->Up_, largest / height), 1)};
 }
@@ -205,7 +204,8 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
   return cut;
 }
 
-PlatePattern SignSight::PatternOf(const Facet& facet, const PlateBorders& borders) const
+PlatePattern SignSight::PatternOf(
+  const Facet& facet, const PatternAxis& across, const PatternAxis& up) const
 {
   std::vector<PatternCell> cells;
   for (const std::size_t index : facet.Cells)
@@ -225,15 +225,16 @@ PlatePattern SignSight::PatternOf(const Facet& facet, const PlateBorders& border
     cell.Lit = this->Lit_[index];
     cells.push_back(std::move(cell));
   }
-  return {
-    cells, PatternAxis(borders[0], this->Pixels_[0]), PatternAxis(borders[1], this->Pixels_[1])};
+  return {cells, across, up};
 }
 
 void SignSight::AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders)
 {
+  const PatternAxis across(borders[0], this->Pixels_[0]);
+  const PatternAxis up(borders[1], this->Pixels_[1]);
   for (const Facet& facet : facets)
   {
-    PlatePattern pattern = this->PatternOf(facet, borders);
+    PlatePattern pattern = this->PatternOf(facet, across, up);
     std::vector<double> shares;
     for (const PatternBlock& block : pattern.Blocks())
     {
@@ -241,7 +242,7 @@ void SignSight::AddWhole(const std::vector<Facet>& facets, const PlateBorders& b
     }
     std::vector<std::size_t> zoneOf(pattern.Blocks().size());
     std::iota(zoneOf.begin(), zoneOf.end(), std::size_t{0});
-    this->AddPart(facet, std::move(pattern), shares, zoneOf, borders);
+    this->AddPart(facet, std::move(pattern), shares, zoneOf, {across.Borders(), up.Borders()});
   }
 }
 
@@ -261,7 +262,8 @@ void SignSight::AddCut(const std::vector<Facet>& facets, const std::vector<Plate
         zoneOf.push_back(column + row * (borders[0].size() - 1));
       }
     }
-    PlatePattern pattern = this->PatternOf(facets[i], halved);
+    PlatePattern pattern =
+      this->PatternOf(facets[i], PatternAxis(halved[0], 0), PatternAxis(halved[1], 0));
     this->AddPart(facets[i], std::move(pattern), SeenShares(halved, looks[i]), zoneOf, borders);
   }
 }
@@ -299,7 +301,7 @@ void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vec
       number = part.Zones.size();
       Zone zone{this->Places_.size()};
       zone.At = {zoneOf[i] % columns, zoneOf[i] / columns};
-      for (int axis = 0; axis < 2 && this->Resolved(); ++axis)
+      for (int axis = 0; axis < 2; ++axis)
       {
         zone.Size[axis] = borders[axis][zone.At[axis] + 1] - borders[axis][zone.At[axis]];
       }

@@ -12,9 +12,12 @@
 namespace smokevis
 {
 
-/// What is seen of a sign through clear air. Blocks are an eighth of the plate's longer side at
-/// most and follow the pattern's columns and rows. Where something hides a part of the sign, they
-/// are halved along its edges (PlateEdges.h).
+/// Blocks of a sign's plate along its longer side, at least, and where smoke before it is uneven.
+inline constexpr double UsualBlocks = 8.0;
+inline constexpr double ManyBlocks = 16.0;
+
+/// What is seen of a sign through clear air. Blocks follow the pattern's columns and rows. Where
+/// something hides a part of the sign, they are halved along its edges (PlateEdges.h).
 class SignSight
 {
 public:
@@ -27,8 +30,7 @@ public:
     std::size_t Cell = 0;
     /// Whether any cell in it reflects.
     bool Reflects = false;
-    /// Where all detail is resolved: column and row among all zones of its part, and its size along
-    /// the plate's edges, 0 to 1.
+    /// Column and row among all zones of its part, and its size along the plate's edges, 0 to 1.
     std::array<std::size_t, 2> At{};
     glm::dvec2 Size{0.0};
   };
@@ -44,7 +46,8 @@ public:
     std::vector<Zone> Zones;
   };
 
-  SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity);
+  /// @param blocks along the plate's longer side, at least
+  SignSight(const View& view, const Sign& sign, const Vec3& eye, double acuity, double blocks);
 
   const std::vector<Part>& Parts() const { return this->Parts_; }
   /// Whether the eye makes out all detail: no pixels average what a zone shows.
@@ -61,12 +64,13 @@ public:
   bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
 
 private:
-  PlateBorders Borders() const;
+  PlateBorders Borders(double blocks) const;
   /// Borders along an edge (0: across, 1: up), and more where the smoke before the plate dims it
   /// more at one border than at the next.
   std::vector<double> CutBySmoke(const std::vector<double>& borders, int axis) const;
   std::array<int, 2> Pixels(double acuity) const;
-  PlatePattern PatternOf(const Facet& facet, const PlateBorders& borders) const;
+  PlatePattern PatternOf(
+    const Facet& facet, const PatternAxis& across, const PatternAxis& up) const;
   /// Takes in facets in whole blocks, a zone each.
   void AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders);
   /// Takes them in where something hides a part; blocks that were one stay one zone.

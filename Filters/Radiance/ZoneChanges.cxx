@@ -7,12 +7,8 @@ namespace smokevis
 {
 
 ZoneChanges::ZoneChanges(const SignSight& sight, const SignSight::Part& part)
-    : Rows_(part.Zones.size())
+    : Resolved_(sight.Resolved()), Rows_(part.Zones.size())
 {
-  if (!sight.Resolved())
-  {
-    return;
-  }
   const std::vector<SignSight::Zone>& zones = part.Zones;
   std::array<std::size_t, 2> size{};
   for (const SignSight::Zone& zone : zones)
@@ -66,20 +62,40 @@ ZoneChanges::ZoneChanges(const SignSight& sight, const SignSight::Part& part)
 std::vector<glm::dvec2> ZoneChanges::Of(const std::vector<double>& values) const
 {
   std::vector<glm::dvec2> changes(this->Rows_.size(), glm::dvec2(0.0));
-  for (std::size_t i = 0; i < changes.size(); ++i)
+  for (std::size_t i = 0; i < changes.size() && this->Resolved_; ++i)
   {
     for (int axis = 0; axis < 2; ++axis)
     {
       if (const std::optional<Row>& row = this->Rows_[i][axis])
       {
         // Where smoke begins or is uneven, one side tells nothing of the other.
-        const double before = (values[row->Zones[1]] - values[row->Zones[0]]) / row->Apart[0];
-        const double behind = (values[row->Zones[2]] - values[row->Zones[1]]) / row->Apart[1];
-        changes[i][axis] = std::copysign(std::sqrt(std::max(0.0, before * behind)), before);
+        const Steps steps = row->Of(values);
+        changes[i][axis] =
+          std::copysign(std::sqrt(std::max(0.0, steps.Before * steps.Behind)), steps.Before);
       }
     }
   }
   return changes;
+}
+
+std::vector<double> ZoneChanges::Unevenness(const std::vector<double>& values) const
+{
+  // Of values that differ from a line by independent errors, second differences have six times
+  // their variance.
+  constexpr double Variances = 6.0;
+  std::vector<double> errors(this->Rows_.size(), 0.0);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+  {
+    for (const std::optional<Row>& row : this->Rows_[i])
+    {
+      if (row)
+      {
+        const Steps steps = row->Of(values);
+        errors[i] = std::hypot(errors[i], (steps.Behind - steps.Before) / std::sqrt(Variances));
+      }
+    }
+  }
+  return errors;
 }
 
 } // namespace smokevis

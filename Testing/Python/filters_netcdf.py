@@ -19,7 +19,8 @@ light = simple.SmokeLightField(
 places = simple.FloorMapOfVisibility(LightField=light, EyeHeight=1.5, Resolution=[6, 2])
 FIELDS = {"perceived_contrast": "PerceivedContrast", "contrast": "Contrast", "sign_luminance": "SignLuminance",
           "visible_fraction": "VisibleFraction"}
-FLAT = {"visibility": "Visibility", "visibility_error": "VisibilityError", "best_sign": "BestSign",
+FLAT = {"visibility": "Visibility", "visibility_error": "VisibilityError",
+        "visibility_division_error": "VisibilityDivisionError", "best_sign": "BestSign",
         "visible_probability": "VisibleProbability", "status": "Status"}
 
 

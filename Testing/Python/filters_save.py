@@ -10,7 +10,7 @@ from scenes import cell_array, fetch, field, image, point_array, producer
 simple = scenes.load_plugin()
 VIEW = ("Luminance", "LuminanceError", "DirectLuminance", "VeilLuminance", "OpticalDepth",
         "SignMask", "SignIds", "LuminanceRGB")
-MAP = ("Visibility", "VisibilityError", "BestSign", "Contrast", "PerceivedContrast",
+MAP = ("Visibility", "VisibilityError", "VisibilityDivisionError", "BestSign", "Contrast", "PerceivedContrast",
        "SignLuminance", "VisibleFraction", "OpticalDepth", "JinVisibility", "Status")
 
 

@@ -68,7 +68,7 @@ with tempfile.TemporaryDirectory() as temporary:
     subprocess.run([shutil.which("pvpython"), "--force-offscreen-rendering", __file__, sys.argv[1],
                     "-", os.path.join(temporary, "scene.pvsm"), target], check=True)
     loaded_map = numpy.load(target)
-    assert set(loaded_map.files) == set(expected) and len(expected) == 12, loaded_map.files
+    assert set(loaded_map.files) == set(expected) and len(expected) == 13, loaded_map.files
     for key, array in expected.items():
         assert numpy.array_equal(loaded_map[key], array), key
     assert expected["Visibility"].max() > 0.1

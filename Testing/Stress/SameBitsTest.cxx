@@ -42,6 +42,7 @@ void ExpectSame(const Solved& a, const FloorMap& mapA, const Solved& b, const Fl
   EXPECT_TRUE(SameBits(mapA.BestSign, mapB.BestSign));
   EXPECT_TRUE(SameBits(mapA.Visibility, mapB.Visibility));
   EXPECT_TRUE(SameBits(mapA.VisibilityError, mapB.VisibilityError));
+  EXPECT_TRUE(SameBits(mapA.VisibilityDivisionError, mapB.VisibilityDivisionError));
   EXPECT_TRUE(SameBits(mapA.Contrast, mapB.Contrast));
   EXPECT_TRUE(SameBits(mapA.SignLuminance, mapB.SignLuminance));
   EXPECT_TRUE(SameBits(mapA.VisibleFraction, mapB.VisibleFraction));

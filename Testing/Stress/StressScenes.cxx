@@ -295,9 +295,10 @@ void ExpectSaneField(const Solved& solved)
 //--------------------------------------------------------------------------------------------------
 void ExpectSaneSign(const SignMeasurement& sign)
 {
-  for (const double value : {sign.Contrast, sign.ContrastError, sign.PerceivedContrast,
-         sign.PerceivedContrastError, sign.MeanLuminance, sign.MeanLuminanceError,
-         sign.LitLuminance, sign.UnlitLuminance, sign.OpticalDepth, sign.VisibleFraction})
+  for (const double value : {sign.Contrast, sign.ContrastError, sign.ContrastDivisionError,
+         sign.PerceivedContrast, sign.PerceivedContrastError, sign.PerceivedContrastDivisionError,
+         sign.MeanLuminance, sign.MeanLuminanceError, sign.LitLuminance, sign.UnlitLuminance,
+         sign.OpticalDepth, sign.VisibleFraction})
   {
     EXPECT_TRUE(std::isfinite(value) && value >= 0.0) << value;
   }

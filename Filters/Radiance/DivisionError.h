@@ -1,0 +1,41 @@
+// What uneven smoke leaves unknown of a sign's contrast, since each zone of its plate is looked at
+// in its middle.
+#pragma once
+
+#include "PixelMoments.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace smokevis
+{
+
+/// The standard error that this makes of a sign's contrast. Those of its zones are independent of
+/// each other.
+class DivisionError
+{
+public:
+  /// Adds a plane part of the sign.
+  /// @param blocks of the pattern
+  /// @param zoneOf each block
+  /// @param unevenness standard error, a zone, of the optical depth in its middle as that of all of
+  /// it. A veil changes by no larger share than what comes through.
+  void Add(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks,
+    const std::vector<std::size_t>& zoneOf, const std::vector<double>& unevenness);
+
+  /// Of the ratio of the standard deviation to mean and dark luminance.
+  /// @param seen weight of all pixels
+  double OfRatio(const Moments& moments, double seen, double dark) const;
+
+private:
+  /// What an independent error changes of the sums over pixels of luminance and its square.
+  struct Change
+  {
+    double First = 0.0;
+    double Second = 0.0;
+  };
+
+  std::vector<Change> Changes_;
+};
+
+} // namespace smokevis
