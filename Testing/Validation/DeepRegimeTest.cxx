@@ -12,10 +12,12 @@ namespace
 
 using namespace smokevis;
 
-// The promise is 2 % of the dark bars; the reference's own standard error and the solver's come on
-// top. The lit bars and the contrast follow: with a dark luminance D and a lit one T + D, where T
+// The promise is 2 % of the dark bars, and the solver's noise may be as large; where it is small the
+// promise is to hold for itself, to three standard errors of the reference. The lit bars and the contrast follow: with a dark luminance D and a lit one T + D, where T
 // is the bars' own light, exact, C moves by less than the dark bars' relative error.
-void CheckDeep(const std::string& what, int cut, double tolerance)
+constexpr double Promise = 0.02;
+
+void CheckDeep(const std::string& what, int cut, double tolerance, bool strictly = false)
 {
   report::Head("Dark bars of the tunnel's sign, " + what + " [cd/m2]");
   const report::ReferenceTable table("deep_tunnel_own.csv");
@@ -32,15 +34,20 @@ void CheckDeep(const std::string& what, int cut, double tolerance)
       Vec3(0.0), {4, 1, 1}, {40 * cut, 10 * cut, 10 * cut}, table.Number(row, "extinction"))};
     const Solved solved(scene, tolerance);
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
-    report::Relative(table.Text(row, "name") + " mean free paths", table.Number(row, "dark"),
-      sign.UnlitLuminance, 0.02,
-      std::hypot(table.Number(row, "dark_error"), sign.MeanLuminanceError));
+    const double dark = table.Number(row, "dark");
+    const double darkError = table.Number(row, "dark_error");
+    report::Relative(table.Text(row, "name") + " mean free paths", dark, sign.UnlitLuminance,
+      Promise, std::hypot(darkError, sign.MeanLuminanceError), Promise);
+    if (strictly)
+    {
+      EXPECT_NEAR(sign.UnlitLuminance, dark, Promise * dark + 3.0 * darkError);
+    }
   }
 }
 
 TEST(DeepRegime, Soot)
 {
-  CheckDeep("soot", 1, 0.01);
+  CheckDeep("soot", 1, 0.01, true);
 }
 
 TEST(DeepRegime, WhiteSmoke)
@@ -50,8 +57,8 @@ TEST(DeepRegime, WhiteSmoke)
 
 TEST(DeepRegime, FineCellsLong)
 {
-  CheckDeep("soot", 2, 0.003);
-  CheckDeep("white", 2, 0.003);
+  CheckDeep("soot", 2, 0.003, true);
+  CheckDeep("white", 2, 0.003, true);
 }
 
 } // namespace

@@ -136,16 +136,15 @@ TEST(Enclosure, SideOneAlbedoHalf)
   CheckProfiles(1.0, 0.5);
 }
 
-TEST(Enclosure, OtherAlbedosLong)
+TEST(Enclosure, AllLong)
 {
-  CheckProfiles(1.0, 0.9);
-  CheckProfiles(1.0, 1.0);
-}
-
-TEST(Enclosure, OtherSidesLong)
-{
-  CheckProfiles(0.25, 0.9);
-  CheckProfiles(5.0, 0.9);
+  for (const double side : {0.25, 1.0, 5.0})
+  {
+    for (const double albedo : {0.0, 0.2, 0.5, 0.9, 1.0})
+    {
+      CheckProfiles(side, albedo);
+    }
+  }
 }
 
 } // namespace

@@ -59,7 +59,7 @@ void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, 
 
 /// @param layers of each slab; 0: as many as it takes for thin ones
 void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albedos, int layers = 0,
-  double tolerance = 0.01)
+  double tolerance = 0.005)
 {
   report::Head("Slab under diffuse light");
   const report::ReferenceTable table("slab_reflectance_transmittance.csv");
@@ -154,13 +154,13 @@ TEST(Slab, ThickestLong)
 // hangs on few lines. Layers of a quarter and of half a mean free path, to 1 %, as coarse layers.
 TEST(Slab, WhiteAndDeep)
 {
-  CheckRows(16.0, 16.0, {0.99, 1.0}, 65, 0.01);
+  CheckRows(16.0, 16.0, {0.99, 1.0}, 65);
 }
 
 TEST(Slab, WhiteAndDeepLong)
 {
-  CheckRows(16.0, 16.0, {0.95}, 65, 0.01);
-  CheckRows(32.0, 32.0, {1.0}, 65, 0.01);
+  CheckRows(16.0, 16.0, {0.95}, 65);
+  CheckRows(32.0, 32.0, {1.0}, 65);
 }
 
 // Clear air between deep white smoke changes nothing: what crosses it comes back many times.
@@ -185,8 +185,8 @@ TEST(Slab, ClearLayerInDeepSmoke)
     {
       const Estimate through = solved.Illuminance(slab.FarPatches, 0);
       const Estimate back = solved.Illuminance(slab.NearPatches, 0);
-      report::Relative("T", table.Number(row, "T"), through.Mean, 0.01, through.StandardError);
-      report::Relative("R", table.Number(row, "R"), back.Mean, 0.01, back.StandardError);
+      report::Relative("T", table.Number(row, "T"), through.Mean, 0.005, through.StandardError);
+      report::Relative("R", table.Number(row, "R"), back.Mean, 0.005, back.StandardError);
     }
   }
 }
