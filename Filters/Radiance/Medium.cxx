@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace smokevis
 {
@@ -22,6 +23,39 @@ constexpr double JustBehind = 1e-3;
 /// any line through all smoke, and its extinction is below this share of the largest.
 constexpr double TraceDepth = 1e-10;
 constexpr double TraceShare = 1e-6;
+
+/// Optical depth across a cell beyond which single precision has no digits left for what comes and
+/// goes; no smoke is as dense.
+constexpr double LargestDepth = 1e12;
+
+/// Longest edge of any cell.
+double LongestEdge(const SmokeGrid& grid)
+{
+  double longest = 0.0;
+  for (const std::vector<double>& nodes : grid.Nodes)
+  {
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+    {
+      longest = std::max(longest, nodes[i] - nodes[i - 1]);
+    }
+  }
+  return longest;
+}
+
+void CheckDepths(const SmokeGrid& grid)
+{
+  const double edge = LongestEdge(grid);
+  const auto densest = std::max_element(grid.Extinction.begin(), grid.Extinction.end());
+  if (densest != grid.Extinction.end() && *densest * edge > LargestDepth)
+  {
+    std::ostringstream what;
+    what << "the extinction coefficient is " << *densest << " 1/m, an optical depth of "
+         << *densest * edge << " across a cell";
+    throw Error(
+      "smoke grid '" + grid.Name + "', cell " + std::to_string(densest - grid.Extinction.begin()),
+      what.str(), "Check its unit: 1e12 across a cell is the most that can be computed");
+  }
+}
 
 void CheckGrid(const SmokeGrid& grid)
 {
@@ -70,6 +104,7 @@ void CheckGrid(const SmokeGrid& grid)
   };
   check(grid.Extinction, "the extinction coefficient");
   check(grid.EmittedLuminance, "the emitted luminance");
+  CheckDepths(grid);
 }
 
 } // namespace

@@ -68,6 +68,9 @@ TEST(BadInput, Smoke)
     {"axis x"});
   ExpectRefused("too few values",
     [](SceneDescription& scene) { scene.Grids[0].Extinction.pop_back(); }, {"3999", "4000"});
+  ExpectRefused("smoke beyond all sums",
+    [](SceneDescription& scene) { scene.Grids[0].Extinction[17] = 1e30F; },
+    {"cell 17", "extinction coefficient", "1e+30", "unit"});
   ExpectRefused("too few emitted luminances",
     [](SceneDescription& scene) { scene.Grids[0].EmittedLuminance.assign(7, 1.0F); },
     {"emitted luminance"});
