@@ -26,6 +26,8 @@ constexpr double UncertainContrast = 0.005;
 /// Standard error that uneven smoke leaves the perceived one above which the plate is divided more
 /// finely.
 constexpr double UnevenContrast = 0.002;
+/// Zones of a finely divided plate above which the veil is not told by a ray to each.
+constexpr std::size_t MostRays = 1024;
 /// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
 /// of exponentials are no quadratics. Also of what is unknown of it.
 constexpr double MostChange = 1.0;
@@ -57,6 +59,8 @@ public:
 private:
   /// Optical depth at 633 nm of the smoke before a zone's middle.
   double DepthOf(const SignSight::Zone& zone) const;
+  /// Whether smoke on the way to its middle emits light.
+  bool GlowsBefore(const SignSight::Zone& zone) const;
   /// What comes through the smoke before a zone, without its own light.
   /// @param change of the depth over the zone (ZoneChanges)
   SeenBlock SeenThrough(
@@ -84,8 +88,10 @@ private:
   std::vector<ZoneChanges> Changes_;
   /// Changes of the optical depth at 633 nm over the zones of each part.
   std::vector<std::vector<glm::dvec2>> DepthChanges_;
-  /// What is unknown of the largest optical depth of any band before the zones of each part.
-  std::vector<std::vector<double>> Unevenness_;
+  /// What is unknown of the zones of each part, in the band of the largest extinction.
+  std::vector<std::vector<ZoneError>> Unknown_;
+  /// Whether smoke that emits light lies before the plate.
+  bool Glows_ = false;
   /// Of each band.
   std::vector<std::unique_ptr<SignVeil>> Veils_;
   SignMeasurement Result_;
@@ -96,6 +102,21 @@ double SignLook::DepthOf(const SignSight::Zone& zone) const
   const Vec3 way = this->Sight_.Places()[zone.Place].Point - this->Eye_;
   const double distance = glm::length(way);
   return this->View_.TheScene().Smoke().OpticalDepth(this->Eye_, way / distance, 0.0, distance);
+}
+
+bool SignLook::GlowsBefore(const SignSight::Zone& zone) const
+{
+  const Medium& smoke = this->View_.TheScene().Smoke();
+  if (!smoke.Emits())
+  {
+    return false;
+  }
+  const Vec3 way = this->Sight_.Places()[zone.Place].Point - this->Eye_;
+  const double distance = glm::length(way);
+  std::vector<Segment> pieces;
+  smoke.WalkSmoke(this->Eye_, way / distance, 0.0, distance, pieces);
+  return std::any_of(pieces.begin(), pieces.end(),
+    [&smoke](const Segment& piece) { return smoke.EmittedLuminance(piece.Cell) > 0.0F; });
 }
 
 SeenBlock SignLook::SeenThrough(
@@ -145,16 +166,18 @@ void SignLook::FillFactors()
     std::vector<double> depths(part.Zones.size());
     std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
       [this](const SignSight::Zone& zone) { return this->DepthOf(zone); });
+    this->Glows_ =
+      this->Glows_ || std::any_of(part.Zones.begin(), part.Zones.end(),
+                        [this](const SignSight::Zone& zone) { return this->GlowsBefore(zone); });
     std::vector<glm::dvec2> changes = this->Changes_.emplace_back(this->Sight_, part).Of(depths);
     for (glm::dvec2& change : changes)
     {
       change = glm::clamp(change, -MostChange, MostChange);
     }
-    std::vector<double>& unevenness =
-      this->Unevenness_.emplace_back(this->Changes_.back().Unevenness(depths));
-    for (double& error : unevenness)
+    std::vector<ZoneError>& unknown = this->Unknown_.emplace_back();
+    for (const double error : this->Changes_.back().Unevenness(depths))
     {
-      error = std::min(MostChange, this->View_.TheScene().LargestScale() * error);
+      unknown.push_back({std::min(MostChange, this->View_.TheScene().LargestScale() * error)});
     }
     std::vector<SeenBlock> zones;
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
@@ -176,7 +199,7 @@ void SignLook::MakeVeils()
   const std::vector<SeenPlace>& places = this->Sight_.Places();
   for (int band = 0; band < this->Bands_; ++band)
   {
-    if (this->Sight_.PartlyHidden() || this->Fine_)
+    if (this->Sight_.PartlyHidden() || this->Glows_ || (this->Fine_ && places.size() <= MostRays))
     {
       this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places));
     }
@@ -213,6 +236,14 @@ void SignLook::AddVeils()
         return std::accumulate(veil.begin(), veil.end(), 0.0) / Batches;
       });
     const std::vector<glm::dvec2> changes = this->Changes_[index].Of(means);
+    // What smoke scatters changes by no larger share than what comes through it; flames do.
+    const std::vector<double> glow = this->Glows_ ? this->Changes_[index].Unevenness(means)
+                                                  : std::vector<double>(means.size(), 0.0);
+    for (std::size_t zone = 0; zone < means.size(); ++zone)
+    {
+      ZoneError& unknown = this->Unknown_[index][zone];
+      unknown.Veil = std::max(glow[zone], unknown.Depth * means[zone]);
+    }
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
       if (!(part.Densities[i] > 0.0))
@@ -263,12 +294,13 @@ void SignLook::FillMeans()
   }
   SignMeasurement& result = this->Result_;
   const double unlitWeight = this->Sight_.Seen() - litWeight;
+  const bool hasUnlit = unlitWeight > 1e-12 * this->Sight_.Seen();
   result.LitLuminance = litWeight > 0.0 ? std::max(0.0, lit / litWeight) : 0.0;
-  result.UnlitLuminance =
-    unlitWeight > 1e-12 * this->Sight_.Seen() ? std::max(0.0, unlit / unlitWeight) : 0.0;
+  result.UnlitLuminance = hasUnlit ? std::max(0.0, unlit / unlitWeight) : 0.0;
   const double difference = result.LitLuminance - result.UnlitLuminance;
   result.WebberContrast = result.UnlitLuminance > 0.0 ? difference / result.UnlitLuminance : 0.0;
-  result.UL924Contrast = result.LitLuminance > 0.0 ? difference / result.LitLuminance : 0.0;
+  result.UL924Contrast =
+    hasUnlit && result.LitLuminance > 0.0 ? difference / result.LitLuminance : 0.0;
   result.MeanLuminanceError = StandardError(mean);
 }
 
@@ -280,7 +312,7 @@ void SignLook::FillContrast()
   {
     const SignSight::Part& part = this->Sight_.Parts()[index];
     AddPixels(part.Pattern, this->Blocks_[index], sums);
-    division.Add(part.Pattern, this->Blocks_[index], part.ZoneOf, this->Unevenness_[index]);
+    division.Add(part.Pattern, this->Blocks_[index], part.ZoneOf, this->Unknown_[index]);
   }
   SignMeasurement& result = this->Result_;
   const ResampledMoments resampled = sums.Get();

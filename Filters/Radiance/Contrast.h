@@ -35,7 +35,7 @@ struct SignMeasurement
   double PerceivedContrastDivisionError = 0.0;
   /// (lit - unlit) / unlit.
   double WebberContrast = 0.0;
-  /// (lit - unlit) / lit.
+  /// (lit - unlit) / lit; 0 where nothing unlit shows.
   double UL924Contrast = 0.0;
   /// Mean luminance of what shows, and of its lit and unlit parts [cd/m2].
   double MeanLuminance = 0.0;

@@ -66,6 +66,19 @@ LightGroup Part(const LightGroup& leaf, double u0, double u1, double v0, double 
   return part;
 }
 
+/// Share of a light's radius that counts as none above a horizon, and angle as none between
+/// normals.
+constexpr double PlaneShare = 1e-6;
+
+/// Whether a light faces where a receiver faces that lies in its plane, or before it, but for
+/// rounding: nothing of it is above the receiver's horizon.
+/// @param height of the receiver over the plane through the group's centre
+bool InOnePlane(const LightGroup& group, double height, const std::optional<Vec3>& receiverNormal)
+{
+  return receiverNormal && group.Depth - height <= PlaneShare * group.Radius &&
+         glm::dot(group.Normal, *receiverNormal) >= 1.0 - PlaneShare * PlaneShare;
+}
+
 } // namespace
 
 DirectLight::DirectLight(const Scene& scene, const NearLights* near)
@@ -369,7 +382,8 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   const double height = -glm::dot(to, group.Normal);
   const bool leaf = group.FirstChild < 0;
   if (height <= (leaf ? 0.0 : -group.Radius) ||
-      (receiver.Normal && glm::dot(to, *receiver.Normal) <= -group.Radius))
+      (receiver.Normal && glm::dot(to, *receiver.Normal) <= -group.Radius) ||
+      InOnePlane(group, height, receiver.Normal))
   {
     return;
   }

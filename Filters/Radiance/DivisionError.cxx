@@ -11,8 +11,25 @@ namespace smokevis
 namespace
 {
 
-/// Twice the mean over a block's pixels of all that they show times a share of it, times their
-/// weight.
+/// What a block shows, and what its zone's errors change of that: the veil, then its own light.
+struct Light
+{
+  PatternVector All{};
+  std::array<PatternVector, 2> Changes{};
+};
+
+Light LightOf(const SeenBlock& block, const ZoneError& zone)
+{
+  Light light{MeanFactors(block.Factors), {}};
+  light.Changes[0][0] = zone.Veil;
+  for (int i = 1; i < PatternValues; ++i)
+  {
+    light.Changes[1][i] = zone.Depth * light.All[i];
+  }
+  return light;
+}
+
+/// Twice the sum over a block's pixels of what they show times a change of it, times their area.
 double TwiceProduct(const PatternBlock& block, const PatternVector& all, const PatternVector& share)
 {
   double sum = 0.0;
@@ -30,30 +47,51 @@ double TwiceProduct(const PatternBlock& block, const PatternVector& all, const P
 } // namespace
 
 void DivisionError::Add(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks,
-  const std::vector<std::size_t>& zoneOf, const std::vector<double>& unevenness)
+  const std::vector<std::size_t>& zoneOf, const std::vector<ZoneError>& zones)
 {
-  // The veil of each zone, then its own light.
   const std::size_t first = this->Changes_.size();
-  this->Changes_.resize(first + 2 * unevenness.size());
+  this->Changes_.resize(first + 2 * zones.size());
+  std::vector<Light> lights;
+  lights.reserve(blocks.size());
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
+    lights.push_back(blocks[i].Density > 0.0 ? LightOf(blocks[i], zones[zoneOf[i]]) : Light{});
+  }
+  const auto changeOf = [&](std::size_t block, int part) -> Change&
+  { return this->Changes_[first + 2 * zoneOf[block] + static_cast<std::size_t>(part)]; };
+  for (std::size_t i = 0; i < blocks.size() && pattern.Fine(); ++i)
+  {
     const PatternBlock& block = pattern.Blocks()[i];
-    const double weight = blocks[i].Density * unevenness[zoneOf[i]];
-    if (!(weight > 0.0))
+    for (int part = 0; part < 2; ++part)
     {
-      continue;
+      Change& change = changeOf(i, part);
+      change.First += blocks[i].Density * Dot(lights[i].Changes[part], block.Sum);
+      change.Second +=
+        blocks[i].Density * TwiceProduct(block, lights[i].All, lights[i].Changes[part]);
     }
-    const PatternVector all = MeanFactors(blocks[i].Factors);
-    std::array<PatternVector, 2> shares = {PatternVector{}, all};
-    std::swap(shares[0][0], shares[1][0]);
-    for (std::size_t share = 0; share < shares.size(); ++share)
+  }
+  const std::vector<PatternPiece>& pieces = pattern.Pieces();
+  for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end)
+  {
+    double weight = 0.0;
+    double light = 0.0;
+    for (; end < pieces.size() && pieces[end].Pixel == pieces[begin].Pixel; ++end)
     {
-      Change& change = this->Changes_[first + 2 * zoneOf[i] + share];
-      const double light = Dot(shares[share], block.Sum);
-      change.First += weight * light;
-      // Pixels that are not fine average blocks.
-      change.Second += weight * (pattern.Fine() ? TwiceProduct(block, all, shares[share])
-                                                : 2.0 * light * Dot(all, block.Sum) / block.Sum[0]);
+      const PatternPiece& piece = pieces[end];
+      weight += blocks[piece.Block].Density * piece.Sum[0];
+      light += blocks[piece.Block].Density * Dot(lights[piece.Block].All, piece.Sum);
+    }
+    for (std::size_t i = begin; i < end && weight > 0.0; ++i)
+    {
+      const PatternPiece& piece = pieces[i];
+      for (int part = 0; part < 2; ++part)
+      {
+        const double changed =
+          blocks[piece.Block].Density * Dot(lights[piece.Block].Changes[part], piece.Sum);
+        Change& change = changeOf(piece.Block, part);
+        change.First += changed;
+        change.Second += 2.0 * changed * light / weight;
+      }
     }
   }
 }

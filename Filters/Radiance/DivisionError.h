@@ -10,18 +10,26 @@
 namespace smokevis
 {
 
-/// The standard error that this makes of a sign's contrast. Those of its zones are independent of
-/// each other.
+/// What is unknown of a zone, as standard errors.
+struct ZoneError
+{
+  /// Of the optical depth in its middle as that of all of it.
+  double Depth = 0.0;
+  /// Of the veil there [cd/m2].
+  double Veil = 0.0;
+};
+
+/// The standard error that this makes of a sign's contrast. The errors of its zones are taken to be
+/// independent of each other, which what second differences tell too much of smooth changes makes
+/// up for.
 class DivisionError
 {
 public:
   /// Adds a plane part of the sign.
   /// @param blocks of the pattern
   /// @param zoneOf each block
-  /// @param unevenness standard error, a zone, of the optical depth in its middle as that of all of
-  /// it. A veil changes by no larger share than what comes through.
   void Add(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks,
-    const std::vector<std::size_t>& zoneOf, const std::vector<double>& unevenness);
+    const std::vector<std::size_t>& zoneOf, const std::vector<ZoneError>& zones);
 
   /// Of the ratio of the standard deviation to mean and dark luminance.
   /// @param seen weight of all pixels

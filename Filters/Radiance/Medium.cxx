@@ -28,32 +28,25 @@ constexpr double TraceShare = 1e-6;
 /// goes; no smoke is as dense.
 constexpr double LargestDepth = 1e12;
 
-/// Longest edge of any cell.
-double LongestEdge(const SmokeGrid& grid)
-{
-  double longest = 0.0;
-  for (const std::vector<double>& nodes : grid.Nodes)
-  {
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-    {
-      longest = std::max(longest, nodes[i] - nodes[i - 1]);
-    }
-  }
-  return longest;
-}
-
 void CheckDepths(const SmokeGrid& grid)
 {
-  const double edge = LongestEdge(grid);
-  const auto densest = std::max_element(grid.Extinction.begin(), grid.Extinction.end());
-  if (densest != grid.Extinction.end() && *densest * edge > LargestDepth)
+  const std::size_t across = grid.Nodes[0].size() - 1;
+  const std::size_t along = grid.Nodes[1].size() - 1;
+  const auto edge = [&grid](int axis, std::size_t index)
+  { return grid.Nodes[axis][index + 1] - grid.Nodes[axis][index]; };
+  for (std::size_t cell = 0; cell < grid.Extinction.size(); ++cell)
   {
-    std::ostringstream what;
-    what << "the extinction coefficient is " << *densest << " 1/m, an optical depth of "
-         << *densest * edge << " across a cell";
-    throw Error(
-      "smoke grid '" + grid.Name + "', cell " + std::to_string(densest - grid.Extinction.begin()),
-      what.str(), "Check its unit: 1e12 across a cell is the most that can be computed");
+    const std::size_t row = cell / across;
+    const double depth = grid.Extinction[cell] * std::max({edge(0, cell % across),
+                                                   edge(1, row % along), edge(2, row / along)});
+    if (depth > LargestDepth)
+    {
+      std::ostringstream what;
+      what << "the extinction coefficient is " << grid.Extinction[cell]
+           << " 1/m, an optical depth of " << depth << " across the cell";
+      throw Error("smoke grid '" + grid.Name + "', cell " + std::to_string(cell), what.str(),
+        "Check its unit: 1e12 across a cell is the most that can be computed");
+    }
   }
 }
 

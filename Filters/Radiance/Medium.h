@@ -24,8 +24,8 @@ struct SmokeGrid
   std::string Name;
   /// Node coordinates along x, y, z [m], strictly increasing, at least two each.
   std::array<std::vector<double>, 3> Nodes;
-  /// Extinction coefficient of each cell at 633 nm [1/m], x fastest; at most an optical depth of 1e12
-  /// across a cell.
+  /// Extinction coefficient of each cell at 633 nm [1/m], x fastest; an optical depth of 1e12
+  /// across the cell at most.
   std::vector<float> Extinction;
   /// Luminance that the cell's absorption would emit in equilibrium [cd/m2]; empty: none.
   std::vector<float> EmittedLuminance;

@@ -77,13 +77,11 @@ PatternAxis::PatternAxis(const std::vector<double>& borders, int pixels)
 
 std::vector<double> PatternAxis::Borders() const
 {
-  std::vector<double> borders = {this->Ends.front()};
+  std::vector<double> borders(this->Blocks + 1, this->Ends.front());
   for (std::size_t piece = 0; piece < this->Block.size(); ++piece)
   {
-    if (piece + 1 == this->Block.size() || this->Block[piece + 1] != this->Block[piece])
-    {
-      borders.push_back(this->Ends[piece + 1]);
-    }
+    std::fill(borders.begin() + static_cast<std::ptrdiff_t>(this->Block[piece]) + 1, borders.end(),
+      this->Ends[piece + 1]);
   }
   return borders;
 }

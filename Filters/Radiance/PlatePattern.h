@@ -44,7 +44,7 @@ struct PatternAxis
   /// @param pixels number of pixels of equal size; 0: there are none, each place is one
   PatternAxis(const std::vector<double>& borders, int pixels);
 
-  /// Ends of the blocks.
+  /// Ends of the blocks; one that no pixel lies in has no width.
   std::vector<double> Borders() const;
 };
 

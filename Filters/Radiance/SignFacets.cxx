@@ -130,7 +130,8 @@ std::vector<bool> LitCells(const EmitterSet& lights, const Sign& sign)
   for (const std::size_t cell : sign.Cells)
   {
     const int part = lights.Cells()[cell].Part;
-    lit[cell] = part < 0 ? brightness[cell] > 0.5 * (brightest + darkest) : part == 1;
+    const bool even = brightest == darkest && brightest > 0.0;
+    lit[cell] = part < 0 ? even || brightness[cell] > 0.5 * (brightest + darkest) : part == 1;
   }
   return lit;
 }

@@ -35,8 +35,8 @@ bool Sees(const View& view, const Sign& sign, const Vec3& eye, const Vec3& point
 PlateLook LookAt(const View& view, const Sign& sign, const Vec3& eye, const Facet& facet);
 
 /// Whether each emitter cell counts as lit: as it says or, where it does not, brighter by itself
-/// than half the brightest of the sign. A sign that only reflects is judged by its reflectance.
-/// Cells of other signs are not.
+/// than the mean of the sign's darkest and brightest, or as bright as all others. A sign that only
+/// reflects is judged by its reflectance. Cells of other signs are not.
 std::vector<bool> LitCells(const EmitterSet& lights, const Sign& sign);
 
 } // namespace smokevis

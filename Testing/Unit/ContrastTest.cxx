@@ -77,6 +77,18 @@ TEST(Contrast, OfStripes)
   EXPECT_EQ(sign.OpticalDepth, 0.0);
 }
 
+// A sign that is as bright everywhere is lit, and has no unlit part to be compared with.
+TEST(Contrast, OfAnEvenSign)
+{
+  const auto view = ViewOf(Stripes(70.0, 70.0));
+  const SignMeasurement sign = MeasureSign(*view, 0, {100, 0, 0}, Plain);
+  EXPECT_NEAR(sign.LitLuminance, 70.0, 1e-4);
+  EXPECT_EQ(sign.UnlitLuminance, 0.0);
+  EXPECT_EQ(sign.WebberContrast, 0.0);
+  EXPECT_EQ(sign.UL924Contrast, 0.0);
+  EXPECT_NEAR(sign.Contrast, 0.0, 1e-6);
+}
+
 TEST(Contrast, DarkLuminanceOfTheObserver)
 {
   const auto view = ViewOf(Stripes(1.0, 0.0));

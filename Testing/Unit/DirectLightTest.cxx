@@ -66,6 +66,22 @@ TEST(DirectLight, NothingLiesBeforeItsOwnPlane)
   }
 }
 
+// A sign does not light itself, nor a plate beside it in its plane, where rounding lifts a point of
+// it off the plane; what is tilted or before it gets light.
+TEST(DirectLight, NothingInItsPlaneIsLit)
+{
+  const Scene scene(Room({Square(Vec3(0.0), 0.4, 0)}));
+  const DirectLight direct(scene);
+  const Vec3 up(0, 0, 1);
+  for (const double off : {0.0, 4e-16, 1e-9, -1e-9})
+  {
+    EXPECT_EQ(direct.Illuminance(0, {0.1, 0.05, off}, up)[0], 0.0) << off;
+    EXPECT_EQ(direct.Illuminance(0, {0.3, 0.05, off}, up)[0], 0.0) << off;
+  }
+  EXPECT_GT(direct.Illuminance(0, {0.3, 0.05, 0.01}, glm::normalize(Vec3(-1, 0, 1)))[0], 1.0);
+  EXPECT_GT(direct.Illuminance(0, {0.1, 0.05, 0.01}, -up)[0], 250.0);
+}
+
 TEST(DirectLight, WhatStandsBeforePartOfASignGetsItsLight)
 {
   // Letters 0.1 m before the ground of their sign: their back sees the ground alone. The patch is
