@@ -1,5 +1,7 @@
 #include "SignSight.h"
 
+#include "PolygonLight.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,6 +36,9 @@ constexpr std::array<double, 2> Lines = {0.25, 0.75};
 constexpr int MostPixels = 512;
 /// Signs of more facets are not cut at edges: their facets are small.
 constexpr std::size_t MostCutFacets = 8;
+/// A block whose diagonal is a smaller share of its distance looks as large as its middle tells, to
+/// a thousandth.
+constexpr double FarSize = 0.05;
 
 /// Angle that the segment between two points spans at the eye [rad].
 double Angle(const Vec3& eye, const Vec3& a, const Vec3& b)
@@ -242,7 +247,8 @@ void SignSight::AddWhole(const std::vector<Facet>& facets, const PlateBorders& b
     }
     std::vector<std::size_t> zoneOf(pattern.Blocks().size());
     std::iota(zoneOf.begin(), zoneOf.end(), std::size_t{0});
-    this->AddPart(facet, std::move(pattern), shares, zoneOf, {across.Borders(), up.Borders()});
+    const PlateBorders blocks = {across.Borders(), up.Borders()};
+    this->AddPart(facet, std::move(pattern), blocks, shares, zoneOf, blocks);
   }
 }
 
@@ -264,12 +270,14 @@ void SignSight::AddCut(const std::vector<Facet>& facets, const std::vector<Plate
     }
     PlatePattern pattern =
       this->PatternOf(facets[i], PatternAxis(halved[0], 0), PatternAxis(halved[1], 0));
-    this->AddPart(facets[i], std::move(pattern), SeenShares(halved, looks[i]), zoneOf, borders);
+    this->AddPart(
+      facets[i], std::move(pattern), halved, SeenShares(halved, looks[i]), zoneOf, borders);
   }
 }
 
-void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
-  const std::vector<std::size_t>& zoneOf, const PlateBorders& borders)
+void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const PlateBorders& blocks,
+  const std::vector<double>& shares, const std::vector<std::size_t>& zoneOf,
+  const PlateBorders& borders)
 {
   const std::size_t columns = borders[0].size() - 1;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -286,7 +294,11 @@ void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const std::vec
       continue;
     }
     const glm::dvec2 middle = MiddleOf(block);
-    const double density = this->DensityOf(part.Front, this->PointOf(part.Front, middle));
+    const std::size_t column = i % (blocks[0].size() - 1);
+    const std::size_t row = i / (blocks[0].size() - 1);
+    const double density = this->DensityOf(part.Front, this->PointOf(part.Front, middle)) *
+                           this->NearShare(part.Front, {blocks[0][column], blocks[1][row]},
+                             {blocks[0][column + 1], blocks[1][row + 1]});
     const double weight = density * shares[i] * block.Sum[0];
     this->All_ += density * block.Sum[0];
     if (!(weight > 0.0))
@@ -350,6 +362,20 @@ double SignSight::DensityOf(const Facet& facet, const Vec3& point) const
   const double area = glm::length(glm::cross(this->EdgeU_, this->EdgeV_)) /
                       std::abs(glm::dot(this->Plate_.Normal, facet.Normal));
   return std::max(0.0, area * glm::dot(to, facet.Normal) / (square * std::sqrt(square)));
+}
+
+double SignSight::NearShare(const Facet& facet, const glm::dvec2& low, const glm::dvec2& high) const
+{
+  const std::array<Vec3, 4> corners = {this->PointOf(facet, low),
+    this->PointOf(facet, {high.x, low.y}), this->PointOf(facet, high),
+    this->PointOf(facet, {low.x, high.y})};
+  const Vec3 middle = this->PointOf(facet, 0.5 * (low + high));
+  if (glm::length(corners[2] - corners[0]) < FarSize * glm::length(middle - this->Eye_))
+  {
+    return 1.0;
+  }
+  const double told = this->DensityOf(facet, middle) * (high.x - low.x) * (high.y - low.y);
+  return told > 0.0 ? SolidAngle(this->Eye_, corners) / told : 1.0;
 }
 
 Vec3 SignSight::PointOf(const Facet& facet, const glm::dvec2& place) const

@@ -76,14 +76,19 @@ private:
   /// Takes them in where something hides a part; blocks that were one stay one zone.
   void AddCut(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
     const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);
-  /// @param shares of the blocks that are seen
-  /// @param zoneOf each block, from 0 on, row after row
+  /// @param blocks their borders
+  /// @param shares of them that are seen
+  /// @param zoneOf each of them, from 0 on, row after row
   /// @param borders of the zones
-  void AddPart(const Facet& facet, PlatePattern pattern, const std::vector<double>& shares,
-    const std::vector<std::size_t>& zoneOf, const PlateBorders& borders);
+  void AddPart(const Facet& facet, PlatePattern pattern, const PlateBorders& blocks,
+    const std::vector<double>& shares, const std::vector<std::size_t>& zoneOf,
+    const PlateBorders& borders);
   /// Share of a block's places that the eye sees.
   double VisibleShare(const Facet& facet, const PatternBlock& block) const;
   double DensityOf(const Facet& facet, const Vec3& point) const;
+  /// Solid angle of a rectangle of the plate over what the density in its middle tells, which is
+  /// too much close to the eye.
+  double NearShare(const Facet& facet, const glm::dvec2& low, const glm::dvec2& high) const;
   Vec3 PointOf(const Facet& facet, const glm::dvec2& place) const;
 
   const View& View_;

@@ -1,6 +1,7 @@
 // The contrast of a sign without smoke, where everything is known.
 #include "Contrast.h"
 #include "FloorMap.h"
+#include "PolygonLight.h"
 
 #include <cmath>
 #include <memory>
@@ -87,6 +88,30 @@ TEST(Contrast, OfAnEvenSign)
   EXPECT_EQ(sign.WebberContrast, 0.0);
   EXPECT_EQ(sign.UL924Contrast, 0.0);
   EXPECT_NEAR(sign.Contrast, 0.0, 1e-6);
+}
+
+// From close by, stripes aside look slender: of lit stripes' share f of the plate's solid angle the
+// contrast is sqrt(1/f - 1).
+TEST(Contrast, FromCloseBy)
+{
+  const SceneDescription scene = Stripes(100.0, 0.0);
+  const auto view = ViewOf(scene);
+  for (const Vec3& eye : {Vec3(0.02, 0.03, 0.01), Vec3(0.05, 0, 0), Vec3(0.1, 0.3, 0.1),
+         Vec3(0.2, -0.45, 0), Vec3(0.5, 0.1, 0.1), Vec3(0.1, 1.0, 0.4)})
+  {
+    double lit = 0.0;
+    double all = 0.0;
+    for (const EmitterCell& cell : scene.Emitters)
+    {
+      const std::vector<Vec3>& corner = cell.Vertices;
+      const double angle = SolidAngle(eye, {corner[0], corner[1], corner[2], corner[3]});
+      all += angle;
+      lit += cell.Luminance[0] > 0.0 ? angle : 0.0;
+    }
+    const SignMeasurement sign = MeasureSign(*view, 0, eye, Plain);
+    EXPECT_NEAR(sign.Contrast, std::sqrt(all / lit - 1.0), 1e-3) << eye.x << " m";
+    EXPECT_NEAR(sign.MeanLuminance, 100.0 * lit / all, 0.05) << eye.x << " m";
+  }
 }
 
 TEST(Contrast, DarkLuminanceOfTheObserver)
