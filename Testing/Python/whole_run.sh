@@ -49,7 +49,7 @@ assert [os.path.basename(path) for path in one] == sorted(os.listdir(os.path.joi
 assert len(one) == 2, one
 for path in one:
     expected = arrays(path)
-    assert len(expected) == 12, expected.keys()
+    assert len(expected) == 13, expected.keys()
     assert arrays(path.replace("/one/", "/two/")) == expected, path
 print("The same maps, killed and resumed or not.")
 PYTHON

@@ -52,7 +52,7 @@ TEST(DeepRegime, Soot)
 
 TEST(DeepRegime, WhiteSmoke)
 {
-  CheckDeep("white", 1, 0.01);
+  CheckDeep("white", 1, 0.006, true);
 }
 
 TEST(DeepRegime, FineCellsLong)
