@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace smokevis
 {
@@ -98,27 +97,28 @@ void DivisionError::Add(const PlatePattern& pattern, const std::vector<SeenBlock
 
 double DivisionError::OfRatio(const Moments& moments, double seen, double dark) const
 {
-  const double below = moments.Mean + dark;
+  // What a change makes of half the variance.
+  const auto ofVariance = [&](const Change& change)
+  { return (0.5 * change.Second - moments.Mean * change.First) / seen; };
   double variance = 0.0;
   for (const Change& change : this->Changes_)
   {
-    const double own = 0.5 * change.Second / seen - moments.Mean * change.First / seen;
-    variance += own * own;
+    variance = std::hypot(variance, ofVariance(change));
   }
+  const double below = moments.Mean + dark;
   // A plate that is even by chance has no derivative.
-  const double deviation = std::max(moments.Deviation, std::sqrt(std::sqrt(variance)));
+  const double deviation = std::max(moments.Deviation, std::sqrt(variance));
   if (!(below > 0.0) || !(deviation > 0.0))
   {
     return 0.0;
   }
-  double sum = 0.0;
+  double error = 0.0;
   for (const Change& change : this->Changes_)
   {
-    const double own = 0.5 * change.Second / seen - moments.Mean * change.First / seen;
-    const double ratio = own / deviation - moments.Deviation * change.First / seen / below;
-    sum += ratio * ratio;
+    const double mean = change.First / seen;
+    error = std::hypot(error, ofVariance(change) / deviation - moments.Deviation * mean / below);
   }
-  return std::sqrt(sum) / below;
+  return error / below;
 }
 
 } // namespace smokevis

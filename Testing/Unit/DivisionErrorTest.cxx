@@ -107,8 +107,8 @@ TEST(DivisionError, IsSmallInNearlyEvenSmoke)
   EXPECT_NEAR(sign.Contrast, ContrastOfSteps(*view), 0.0005);
 }
 
-// In even smoke nothing is unknown, also of a plate that is evenly bright.
-TEST(DivisionError, IsNoneInEvenSmoke)
+// In even smoke it is what depths bend over the plate, also over one that is evenly bright.
+TEST(DivisionError, IsSmallInEvenSmoke)
 {
   for (const int bars : {1, 5})
   {

@@ -151,7 +151,7 @@ TEST(Slab, ThickestLong)
 }
 
 // Light is scattered a thousand times before it is through, and what a cell gets of that in a sweep
-// hangs on few lines. Layers of a quarter and of half a mean free path, to 1 %, as coarse layers.
+// hangs on few lines. Layers of a quarter and of half a mean free path.
 TEST(Slab, WhiteAndDeep)
 {
   CheckRows(16.0, 16.0, {0.99, 1.0}, 65);

@@ -15,9 +15,9 @@ void Head(const std::string& caption);
 
 /// Prints a row (reference, value, relative deviation, and z-score where there is a standard error)
 /// and fails where |value - reference| > tolerance |reference| + 3 standardError, or where the
-/// standard error is above a share of the reference.
+/// standard error is above 15 % of the reference.
 void Relative(const std::string& name, double reference, double value, double tolerance,
-  double standardError = 0.0, double largestError = 0.15);
+  double standardError = 0.0);
 
 /// The same with a tolerance in the values' own unit, which their standard error may not exceed.
 void Absolute(const std::string& name, double reference, double value, double tolerance,
