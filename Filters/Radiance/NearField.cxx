@@ -101,7 +101,8 @@ struct NearField::Level
   }
 };
 
-NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach)
+NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach,
+  double longestStep)
     : Scene_(scene), Direct_(direct), Light_(light)
 {
   const EmitterSet& lights = scene.Lights();
@@ -143,7 +144,8 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {
-    const double step = distance / (finer * (this->Levels_.empty() ? InnermostSteps : Steps));
+    const double step = this->Levels_.empty() ? distance / (finer * InnermostSteps)
+                                              : std::min(longestStep, distance / (finer * Steps));
     if (this->Extinction_ * scene.LargestScale() * step > ThickStep)
     {
       break;

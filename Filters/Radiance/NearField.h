@@ -23,7 +23,9 @@ class NearField
 {
 public:
   /// @param reach distance from the plate up to which fluences will be asked for [m]
-  NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach);
+  /// @param longestStep of a lattice, but of the innermost: what it may be for the smoke's sake [m]
+  NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach,
+    double longestStep = std::numeric_limits<double>::infinity());
   ~NearField();
 
   /// Fluence at a point that sees the whole light [lx].

@@ -1,9 +1,11 @@
 #include "NearLights.h"
 
 #include "NearDeposit.h"
+#include "OpenFaces.h"
 #include "Scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -27,6 +29,12 @@ constexpr double SmoothestLaw = 1.4;
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
 
+/// Steps of lattices in smoke that is uneven, in cell edges: this over its unevenness, by which the
+/// depth of a cell is off the mean of its neighbours', and no less than the finest. Where every
+/// cell is off by 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one 1 %.
+constexpr double StepOverUnevenness = 0.02;
+constexpr double FinestStep = 0.25;
+
 } // namespace
 
 NearLights::NearLights(const Scene& scene)
@@ -47,7 +55,8 @@ NearLights::NearLights(const Scene& scene)
     const LightGroup& root = lights.Root(light);
     if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
-      this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, reach);
+      this->Fields_[light] =
+        std::make_unique<NearField>(scene, this->Direct_, light, reach, this->LongestStep(light));
     }
   }
   tbb::parallel_for(std::size_t{0}, this->Cells_.size(),
@@ -88,6 +97,38 @@ NearLights::NearLights(const Scene& scene)
       }
     }
   }
+}
+
+double NearLights::LongestStep(std::size_t light) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  double edge = std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  int count = 0;
+  for (const Cell& cell : this->Cells_)
+  {
+    if (cell.Lights.back().Index != light)
+    {
+      continue;
+    }
+    const Vec3 size = smoke.CellSize(cell.Index);
+    edge = std::min(edge, LargestEdge(size));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t low = this->Scene_.Open().Neighbour(cell.Index, axis, 0);
+      const std::int64_t high = this->Scene_.Open().Neighbour(cell.Index, axis, 1);
+      if (low >= 0 && high >= 0)
+      {
+        const double beside = 0.5 * (smoke.Extinction(low) + smoke.Extinction(high));
+        const double off = (smoke.Extinction(cell.Index) - beside) * size[axis];
+        squares += off * off;
+        ++count;
+      }
+    }
+  }
+  const double unevenness =
+    this->Scene_.LargestScale() * std::sqrt(squares / static_cast<double>(std::max(1, count)));
+  return edge * std::max(FinestStep, StepOverUnevenness / unevenness);
 }
 
 int NearLights::Find(std::size_t cell, std::size_t light) const

@@ -83,6 +83,9 @@ private:
   void Keep(std::size_t index, const Spectrum& mean) const;
   /// Finds the cells near to a light; returns how far from it they reach [m].
   double FindCells(std::size_t light);
+  /// Step of lattices that follow how smoke changes between the cells near to the light whose cells
+  /// were found last [m].
+  double LongestStep(std::size_t light) const;
 
   const Scene& Scene_;
   DirectLight Direct_;

@@ -2,6 +2,7 @@
 
 #include "DirectField.h"
 #include "MultipleShape.h"
+#include "NearMultiple.h"
 #include "ShapeNoise.h"
 #include "VeilGather.h"
 
@@ -56,13 +57,25 @@ struct View::Implementation
       this->MultipleShape[band] = ShapeOfMultiple(scene, means);
       this->MultipleNoise[band] = ShapeNoise(scene,
         field.MultipleFluence.data() + field.CellIndex(band, 0), means, this->MultipleShape[band]);
+      this->Indirect[band] = std::make_unique<IndirectLight>(
+        scene, field, this->DirectFluence, this->MultipleShape[band], band);
+      this->MultipleNear[band] = std::make_unique<NearMultiple>(*this->Indirect[band]);
     }
     this->FindLeak();
   }
 
   void FindLeak();
-  /// Adds weight times the batches of the fluence at a point of a cell.
-  void AddMultiple(std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const;
+  /// A piece of a ray inside one cell.
+  struct Piece
+  {
+    std::int64_t Cell;
+    Vec3 Begin, Step;
+    double Depth, Lost;
+    /// Where a source that varies linearly along the piece takes its mean.
+    Vec3 Middle;
+  };
+  /// Adds weight times the batches of what multiply scattered light sends out of a piece.
+  void AddMultiple(const Piece& piece, int band, double weight, Lanes& sum) const;
 
   const Scene& TheScene;
   const LightField& Field;
@@ -71,6 +84,9 @@ struct View::Implementation
   /// How the multiply scattered fluence varies inside the cells.
   std::array<CellShape, 3> MultipleShape;
   std::array<ShapeNoise, 3> MultipleNoise;
+  std::array<std::unique_ptr<IndirectLight>, 3> Indirect;
+  /// The same right beside lights.
+  std::array<std::unique_ptr<NearMultiple>, 3> MultipleNear;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
 };
@@ -90,12 +106,19 @@ void View::Implementation::FindLeak()
 }
 
 void View::Implementation::AddMultiple(
-  std::int64_t cell, const Vec3& point, int band, double weight, Lanes& sum) const
+  const Piece& piece, int band, double weight, Lanes& sum) const
 {
-  const double there = weight * this->MultipleShape[band].Value(cell, point);
-  Add(
-    sum, this->Field.MultipleFluence[this->Field.CellIndex(band, cell)], static_cast<float>(there));
-  this->MultipleNoise[band].Add(cell, point, there, sum);
+  const NearMultiple& near = *this->MultipleNear[band];
+  const bool tells = near.Tells(piece.Cell);
+  const double there = weight * (tells ? piece.Lost * near.Value(piece.Cell, piece.Middle)
+                                       : this->MultipleShape[band].Emerging(
+                                           piece.Cell, piece.Begin, piece.Step, piece.Depth));
+  Add(sum, this->Field.MultipleFluence[this->Field.CellIndex(band, piece.Cell)],
+    static_cast<float>(there));
+  if (!tells)
+  {
+    this->MultipleNoise[band].Add(piece.Cell, piece.Middle, there, sum);
+  }
 }
 
 View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)
@@ -139,13 +162,15 @@ RayLight View::TraceVeil(
       const double passed = thin ? 1.0 - smaller : smaller;
       if (albedo > 0.0)
       {
-        // Where a source that varies linearly along the piece takes its mean.
         const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
                                          : 1.0 / extinction - length * passed / lost;
-        const Vec3 point = origin + (segment.Begin + mean) * direction;
-        const double weight = scatter * ahead * lost;
-        light.VeilDirect += weight * self.DirectFluence.Smooth(segment.Cell, point, band);
-        self.AddMultiple(segment.Cell, point, band, weight, light.VeilMultiple);
+        const Vec3 from = origin + segment.Begin * direction;
+        const Vec3 step = length * direction;
+        const double weight = scatter * ahead;
+        light.VeilDirect +=
+          weight * self.DirectFluence.SmoothEmerging(segment.Cell, from, step, depth, band);
+        self.AddMultiple({segment.Cell, from, step, depth, lost, from + mean * direction}, band,
+          weight, light.VeilMultiple);
         if (self.DirectFluence.Near(segment.Cell))
         {
           light.VeilDirect += ahead * self.DirectFluence.NearVeil(segment.Cell, origin, direction,
@@ -163,10 +188,11 @@ RayLight View::TraceVeil(
 GatheredVeil View::GatherVeil(
   const Vec3& origin, const std::vector<SightLine>& lines, int band) const
 {
-  const Implementation& self = *this->Implementation_;
-  const IndirectLight indirect(
-    *this->Scene_, *this->Field_, self.DirectFluence, self.MultipleShape[band], band);
-  return smokevis::GatherVeil(indirect, origin, lines);
+  if (this->Scene_->Albedo() == 0.0)
+  {
+    return {};
+  }
+  return smokevis::GatherVeil(*this->Implementation_->Indirect[band], origin, lines);
 }
 
 RayLight View::Trace(const Vec3& origin, const Vec3& direction, const Hit& hit, int band) const

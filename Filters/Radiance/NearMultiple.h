@@ -1,0 +1,51 @@
+// How multiply scattered light varies inside cells right beside lights.
+#pragma once
+
+#include "IndirectLight.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <tbb/collaborative_call_once.h>
+
+namespace smokevis
+{
+
+/// The smoke right before a light, lit by it, lights the smoke beside it: what is scattered twice
+/// is steeper there than the means of neighbouring cells tell, and behind the plate there are none.
+/// In cells where that matters the light varies as rays from a few places inside them gather it;
+/// its mean stays what it is. A cell is looked at when it is first asked for, and what is found
+/// depends on the light field alone, so that it does not matter which thread does so.
+class NearMultiple
+{
+public:
+  /// @param light must outlive this
+  explicit NearMultiple(const IndirectLight& light);
+
+  /// Whether the light in a cell is taken from here.
+  bool Tells(std::int64_t cell) const { return this->Place(cell) >= 0; }
+  /// Value at a point of such a cell over the mean there: linear along each axis.
+  double Value(std::int64_t cell, const Vec3& point) const;
+
+private:
+  struct Cell
+  {
+    std::int64_t Index = 0;
+    tbb::collaborative_once_flag Found;
+    /// The light over its mean at eight places, first axis fastest.
+    std::array<double, 8> Values{};
+  };
+
+  /// Place of a cell among those that are looked at, or -1.
+  int Place(std::int64_t cell) const;
+  void Find(Cell& cell) const;
+
+  const IndirectLight& Light_;
+  /// Of the cells that lights are near to, among those that are looked at.
+  std::vector<std::int32_t> Places_;
+  mutable std::deque<Cell> Cells_;
+};
+
+} // namespace smokevis
