@@ -135,6 +135,10 @@ private:
   double ChangeOver(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;
+  /// Adds what is above the horizon of a receiver of a leaf that it cuts, or nothing of one that is
+  /// below; returns whether it is either.
+  bool AddAboveHorizon(const LightGroup& leaf, const Receiver& receiver, const Path* path,
+    int splits, Spectrum& sum) const;
   void AddPoint(
     const LightGroup& group, const Receiver& receiver, const Path& path, Spectrum& sum) const;
   /// Adds a group by its stencil, unless that does not serve this receiver: then it returns false.
@@ -216,9 +220,14 @@ private:
   bool BehindBorder(const BoxLight& light) const;
   /// A place in a box, for Gauss quadrature over it.
   struct GaussPlace;
-  /// So many places along each edge of a box (1 to 3).
-  static std::vector<GaussPlace> GaussPlaces(
-    const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders);
+  /// Adds so many places along each edge of a box (1 to 3), which has a share in a larger one.
+  static void AddGaussPlaces(const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders,
+    double share, std::vector<GaussPlace>& places);
+  /// The same in slabs along each axis, each half as thick as the one behind it.
+  /// @param from way from the light to the centre
+  static void AddSlabs(const Vec3& centre, const Vec3& size, const Vec3& from,
+    const std::array<int, 3>& slabs, const std::array<int, 3>& orders,
+    std::vector<GaussPlace>& places);
   /// Whether places in a box differ from its centre as they would before a point: that the light is
   /// no point matters as much at one of them as at another, then.
   /// @param places learn what a point would send to them

@@ -29,6 +29,9 @@ namespace
 
 /// Slabs that a box which light hardly gets into is cut into, at most.
 constexpr int MostSlabs = 24;
+/// Slabs along an axis from which on light gets in so little, less than a hundredth of the box,
+/// that what comes in through one face does not meet what does through another.
+constexpr int ThinSlabs = 10;
 /// Share of a light's intensity towards any place in a box that there is towards its centre, where
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
@@ -36,6 +39,25 @@ constexpr double SteadyShare = 0.2;
 /// Least part of a box that counts as cut off by a plate, and one minus the cosine of the angle by
 /// which the plate may lean against the box's faces (1.4 mrad).
 constexpr double Upright = 1e-6;
+
+/// Slabs along all axes at once, or one set after the other for axes along which light is lost
+/// right behind the face: what deepens so fast along one is dark where another one tells of it.
+std::vector<std::array<int, 3>> ApartWhereThin(const std::array<int, 3>& slabs)
+{
+  std::vector<std::array<int, 3>> sets;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (slabs[axis] >= ThinSlabs)
+    {
+      std::array<int, 3>& set = sets.emplace_back(slabs);
+      for (int other = 0; other < 3; ++other)
+      {
+        set[other] = other != axis && slabs[other] >= ThinSlabs ? 1 : slabs[other];
+      }
+    }
+  }
+  return sets.empty() ? std::vector{slabs} : sets;
+}
 
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
 double MeanAttenuation(double x, double shift)
@@ -45,28 +67,25 @@ double MeanAttenuation(double x, double shift)
 
 } // namespace
 
-std::vector<DirectLight::GaussPlace> DirectLight::GaussPlaces(
-  const Vec3& centre, const Vec3& size, const std::array<int, 3>& orders)
+void DirectLight::AddGaussPlaces(const Vec3& centre, const Vec3& size,
+  const std::array<int, 3>& orders, double share, std::vector<GaussPlace>& places)
 {
   constexpr std::array<std::array<double, 3>, 3> nodes = {
     {{0.5}, {Nodes2[0], Nodes2[1]}, {Nodes3[0], Nodes3[1], Nodes3[2]}}};
   constexpr std::array<std::array<double, 3>, 3> weights = {
     {{1.0}, {0.5, 0.5}, {Weights3[0], Weights3[1], Weights3[2]}}};
-  std::vector<GaussPlace> places;
-  places.reserve(static_cast<std::size_t>(orders[0]) * orders[1] * orders[2]);
   ForEachPlace(orders,
     [&](const std::array<int, 3>& index)
     {
-      double weight = 1.0;
-      Vec3 share;
+      double weight = share;
+      Vec3 place;
       for (int axis = 0; axis < 3; ++axis)
       {
-        share[axis] = nodes[orders[axis] - 1][index[axis]];
+        place[axis] = nodes[orders[axis] - 1][index[axis]];
         weight *= weights[orders[axis] - 1][index[axis]];
       }
-      places.push_back({centre + (share - 0.5) * size, weight});
+      places.push_back({centre + (place - 0.5) * size, weight});
     });
-  return places;
 }
 
 Spectrum DirectLight::Fluence(
@@ -270,6 +289,29 @@ double DirectLight::SteepestDepth(const BoxLight& light, const Vec3& size) const
     this->BoxDepth(light.Cell, size), LargestEdge(slope * size) * this->Scene_.LargestScale());
 }
 
+void DirectLight::AddSlabs(const Vec3& centre, const Vec3& size, const Vec3& from,
+  const std::array<int, 3>& slabs, const std::array<int, 3>& orders,
+  std::vector<GaussPlace>& places)
+{
+  ForEachPlace(slabs,
+    [&](const std::array<int, 3>& slab)
+    {
+      Vec3 middle = centre;
+      Vec3 extent = size;
+      double share = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double end = std::ldexp(1.0, slab[axis] - slabs[axis] + 1);
+        const double begin = slab[axis] == 0 ? 0.0 : 0.5 * end;
+        const double inwards = from[axis] >= 0.0 ? 1.0 : -1.0;
+        middle[axis] += inwards * (0.5 * (begin + end) - 0.5) * size[axis];
+        extent[axis] *= end - begin;
+        share *= end - begin;
+      }
+      AddGaussPlaces(middle, extent, orders, share, places);
+    });
+}
+
 Spectrum DirectLight::GradedFluence(
   const BoxLight& light, const Vec3& centre, const Vec3& size) const
 {
@@ -295,27 +337,12 @@ Spectrum DirectLight::GradedFluence(
     const bool flat = depth < 2.0 * FlatDepth && size[axis] < FlatRatio * glm::length(from);
     orders[axis] = !graded && flat ? 1 : 2;
   }
-  std::vector<GaussPlace> places;
-  ForEachPlace(slabs,
-    [&](const std::array<int, 3>& slab)
-    {
-      Vec3 middle = centre;
-      Vec3 extent = size;
-      double share = 1.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double end = std::ldexp(1.0, slab[axis] - slabs[axis] + 1);
-        const double begin = slab[axis] == 0 ? 0.0 : 0.5 * end;
-        const double inwards = from[axis] >= 0.0 ? 1.0 : -1.0;
-        middle[axis] += inwards * (0.5 * (begin + end) - 0.5) * size[axis];
-        extent[axis] *= end - begin;
-        share *= end - begin;
-      }
-      for (const GaussPlace& place : GaussPlaces(middle, extent, orders))
-      {
-        places.push_back({place.Point, share * place.Weight});
-      }
-    });
+  thread_local std::vector<GaussPlace> places;
+  places.clear();
+  for (const std::array<int, 3>& each : ApartWhereThin(slabs))
+  {
+    AddSlabs(centre, size, from, each, orders, places);
+  }
   if (!this->Pointlike(light, centre, size, places))
   {
     Spectrum sum{};
@@ -394,7 +421,9 @@ Spectrum DirectLight::GaussFluence(
   const double edge = LargestEdge(size) * root.Law.Sharpness();
   const bool slow = edge < TwoPointRatio * root.Distance(centre);
   const int order = slow && this->SteepestDepth(light, size) < TwoPointDepth ? 2 : 3;
-  std::vector<GaussPlace> places = GaussPlaces(centre, size, {order, order, order});
+  thread_local std::vector<GaussPlace> places;
+  places.clear();
+  AddGaussPlaces(centre, size, {order, order, order}, 1.0, places);
   Spectrum sum{};
   const bool even = !this->BehindBorder(light);
   if (!even || !(root.Radius * root.Law.Sharpness() < PathRatio * toCentre))

@@ -141,20 +141,21 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     add(centre, 1.0, false);
     return;
   }
-  std::array<Sight, 3> sights;
-  std::transform(corners.begin(), corners.end(), sights.begin(),
+  std::array<std::vector<bool>, 3> seen;
+  std::transform(corners.begin(), corners.end(), seen.begin(),
     [&](const Vec3& corner)
-    { return this->Sight_.OfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
-  const auto all = [&sights](Sight sight)
-  { return std::count(sights.begin(), sights.end(), sight) == 3; };
-  if (all(Sight::None))
+    { return this->Sight_.SeenOfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
+  // Where the same places are seen from all points, as of a lamp that is sunk into a wall, no edge
+  // of a shadow runs through the triangle.
+  const bool alike = seen[0] == seen[1] && seen[0] == seen[2];
+  const Sight sight = LightSight::OfSeen(seen[0]);
+  if (alike && sight == Sight::None)
   {
     return;
   }
-  const bool clear = all(Sight::Whole);
-  if (!clear && level < ShadowSplits)
+  const bool clear = alike && sight == Sight::Whole;
+  if (!alike && level < ShadowSplits)
   {
-    // The edge of a shadow runs through the triangle.
     splitAll();
     return;
   }

@@ -83,22 +83,25 @@ std::vector<bool> LightSight::Seen(
   return this->Shapes_.Visible(lines);
 }
 
-Sight LightSight::OfPlaces(
-  const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const
+Sight LightSight::OfSeen(const std::vector<bool>& seen)
 {
-  const std::vector<bool> seen = this->Seen(group, point, places);
   const auto count = std::count(seen.begin(), seen.end(), true);
   return count == 0 ? Sight::None : (count == std::ssize(seen) ? Sight::Whole : Sight::Parted);
 }
 
+std::vector<bool> LightSight::SeenOfAll(const LightGroup& group, const Vec3& point) const
+{
+  return this->Seen(group, point, FewPlaces);
+}
+
 Sight LightSight::OfCorners(const LightGroup& group, const Vec3& point) const
 {
-  return this->OfPlaces(group, point, CornerPlaces);
+  return OfSeen(this->Seen(group, point, CornerPlaces));
 }
 
 Sight LightSight::OfAll(const LightGroup& group, const Vec3& point) const
 {
-  return this->OfPlaces(group, point, FewPlaces);
+  return OfSeen(this->SeenOfAll(group, point));
 }
 
 Sight LightSight::Of(const LightGroup& group, const Vec3& point) const

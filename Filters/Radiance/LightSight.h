@@ -35,19 +35,21 @@ public:
   /// Which of the places are seen.
   std::vector<bool> Seen(
     const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
+  /// Which of the centre, the corners and eleven places between them are seen.
+  std::vector<bool> SeenOfAll(const LightGroup& group, const Vec3& point) const;
   /// As its centre and its corners tell.
   Sight OfCorners(const LightGroup& group, const Vec3& point) const;
-  /// As these and eleven places between them tell.
+  /// As all of SeenOfAll() tell.
   Sight OfAll(const LightGroup& group, const Vec3& point) const;
   /// The same; of a small one all or nothing.
   Sight Of(const LightGroup& group, const Vec3& point) const;
   /// Share of a group that is not hidden, as the lattice tells.
   double Share(const LightGroup& group, const Vec3& point) const;
 
-private:
-  Sight OfPlaces(
-    const LightGroup& group, const Vec3& point, std::span<const glm::dvec2> places) const;
+  /// Of a group some places of which are looked at.
+  static Sight OfSeen(const std::vector<bool>& seen);
 
+private:
   const Geometry& Shapes_;
 };
 

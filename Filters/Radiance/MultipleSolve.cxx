@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -141,12 +143,16 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
     });
 }
 
-void MultipleSolve::Gather(int band, const std::string& name)
+void MultipleSolve::Gather(
+  int band, const std::string& name, const PowerBalance& balance, const BatchSweeps& sweeps)
 {
+  const DoubleLanes before = balance.TakenBySurfaces(this->Field_, band);
+  std::size_t plates = 0;
   this->Arena_.execute(
     [&]
     {
-      const auto [plates, rays] =
+      std::size_t rays = 0;
+      std::tie(plates, rays) =
         PlateGather(this->Scene_, this->Options_, *this->Inside_, this->Field_, band)
           .Run(this->Team_, this->Progress_);
       if (plates > 0)
@@ -155,6 +161,13 @@ void MultipleSolve::Gather(int band, const std::string& name)
           std::to_string(plates) + " plates reflect light that lines would rarely bring");
       }
     });
+  const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
+  if (plates > 0 && PowerBalance::Closed(powers))
+  {
+    DoubleLanes more = balance.TakenBySurfaces(this->Field_, band);
+    std::transform(more.begin(), more.end(), before.begin(), more.begin(), std::minus<>());
+    balance.Restore(powers, more, this->Field_, band);
+  }
 }
 
 void MultipleSolve::Tell(
@@ -261,7 +274,7 @@ void MultipleSolve::Band(int band)
     balance.ScaleSums(powers, sweeps.States());
   }
   this->Keep(band, sweeps);
-  this->Gather(band, name);
+  this->Gather(band, name, balance, sweeps);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
     "cells of a mesh's mean size are crossed about 1.5 times, less often above a tolerance of "

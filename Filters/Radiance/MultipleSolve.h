@@ -14,6 +14,7 @@ namespace smokevis
 class BatchSweeps;
 class DirectField;
 class LineSweep;
+class PowerBalance;
 class VeilProbes;
 
 /// Works out, band by band, what smoke and surfaces send on of the direct light and of each
@@ -41,8 +42,10 @@ private:
   void Refine(BatchSweeps& sweeps, const VeilProbes& probes) const;
   /// Keeps the means of the sums.
   void Keep(int band, const BatchSweeps& sweeps);
-  /// Lets plates gather light that lines would rarely bring.
-  void Gather(int band, const std::string& name);
+  /// Lets plates gather light that lines would rarely bring. Where no light leaves the scene, all
+  /// is scaled to be in balance with them.
+  void Gather(
+    int band, const std::string& name, const PowerBalance& balance, const BatchSweeps& sweeps);
   void Tell(const std::string& name, const BatchSweeps& sweeps, int settling, double error);
   void Say(const std::string& what, double count, const std::string& why)
   {

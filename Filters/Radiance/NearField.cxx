@@ -156,9 +156,12 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     for (int axis = 0; axis < 3; ++axis)
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
-      const int steps = axis == 2 && level->Graded
-                          ? finer * GradedSteps
-                          : static_cast<int>(std::ceil(2.0 * half / step - Rounding));
+      int steps = axis == 2 && level->Graded
+                    ? finer * GradedSteps
+                    : static_cast<int>(std::ceil(2.0 * half / step - Rounding));
+      // Through the plate's middle often go faces of cells, along which rounding would decide whose
+      // smoke a way leads through: no nodes there.
+      steps |= axis < 2 && !level->Graded ? 1 : 0;
       level->Count[axis] = steps + 1;
       level->Step[axis] = 2.0 * half / steps;
       level->First[axis] = axis < 2 ? -half : 0.0;

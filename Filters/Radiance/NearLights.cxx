@@ -29,7 +29,7 @@ constexpr double SmoothestLaw = 1.4;
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
 
-/// Steps of lattices in smoke that is uneven, in cell edges: this over its unevenness, by which the
+/// Steps of lattices in smoke that is uneven, in edges of its largest cells: this over its unevenness, by which the
 /// depth of a cell is off the mean of its neighbours', and no less than the finest. Where every
 /// cell is off by 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one 1 %.
 constexpr double StepOverUnevenness = 0.02;
@@ -56,7 +56,7 @@ NearLights::NearLights(const Scene& scene)
     if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
       this->Fields_[light] =
-        std::make_unique<NearField>(scene, this->Direct_, light, reach, this->LongestStep(light));
+        std::make_unique<NearField>(scene, this->Direct_, light, reach, this->LongestStep(light, reach));
     }
   }
   tbb::parallel_for(std::size_t{0}, this->Cells_.size(),
@@ -99,10 +99,9 @@ NearLights::NearLights(const Scene& scene)
   }
 }
 
-double NearLights::LongestStep(std::size_t light) const
+double NearLights::LongestStep(std::size_t light, double reach) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  double edge = std::numeric_limits<double>::infinity();
   double squares = 0.0;
   int count = 0;
   for (const Cell& cell : this->Cells_)
@@ -112,7 +111,6 @@ double NearLights::LongestStep(std::size_t light) const
       continue;
     }
     const Vec3 size = smoke.CellSize(cell.Index);
-    edge = std::min(edge, LargestEdge(size));
     for (int axis = 0; axis < 3; ++axis)
     {
       const std::int64_t low = this->Scene_.Open().Neighbour(cell.Index, axis, 0);
@@ -128,7 +126,7 @@ double NearLights::LongestStep(std::size_t light) const
   }
   const double unevenness =
     this->Scene_.LargestScale() * std::sqrt(squares / static_cast<double>(std::max(1, count)));
-  return edge * std::max(FinestStep, StepOverUnevenness / unevenness);
+  return reach / NearEdges * std::max(FinestStep, StepOverUnevenness / unevenness);
 }
 
 int NearLights::Find(std::size_t cell, std::size_t light) const

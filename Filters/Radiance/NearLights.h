@@ -85,7 +85,8 @@ private:
   double FindCells(std::size_t light);
   /// Step of lattices that follow how smoke changes between the cells near to the light whose cells
   /// were found last [m].
-  double LongestStep(std::size_t light) const;
+  /// @param reach how far from the light these reach [m]
+  double LongestStep(std::size_t light, double reach) const;
 
   const Scene& Scene_;
   DirectLight Direct_;

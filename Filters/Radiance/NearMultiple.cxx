@@ -21,6 +21,8 @@ constexpr double LeastShare = 0.1;
 /// Rays to each place for each batch. All places have the same directions, so that noise hardly
 /// changes their ratios: by 1 %.
 constexpr int RaysABatch = 4;
+/// Of the directions, which are the same in all cells: numbers of cells tell nothing of a scene.
+constexpr std::uint64_t DirectionsKey = 1;
 
 /// One of the two places along an axis, as a share of the cell: the mean over the places is that
 /// over the cell of what varies up to the third power.
@@ -103,7 +105,7 @@ void NearMultiple::Find(Cell& cell) const
     places[corner] = box.Lower + share * box.Size();
   }
   std::array<double, 8> sums{};
-  const EvenPoints points(Mix(cell.Index));
+  const EvenPoints points(DirectionsKey);
   for (int ray = 0; ray < Batches * RaysABatch; ++ray)
   {
     const auto random = points.Point(ray);

@@ -22,6 +22,8 @@ constexpr double LargestScale = 1e3;
 /// Share of the light sent out that must be lost, or else what leaks through rounded corners
 /// decides.
 constexpr double SmallestLoss = 1e-5;
+/// Share of what is lost that may leave a closed room.
+constexpr double LeakShare = 1e-6;
 /// Standard errors that what diffusion completes must be off by to be scaled.
 constexpr double ClearDeviations = 3.0;
 /// Share of the spread of the batches that must be left for each to be scaled for itself there: the
@@ -101,6 +103,52 @@ std::vector<PowerBalance::Powers> PowerBalance::Of(const std::vector<BatchState>
         batch.EscapedSum / batch.Counted};
     });
   return powers;
+}
+
+bool PowerBalance::Closed(const std::vector<Powers>& powers)
+{
+  return std::all_of(powers.begin(), powers.end(),
+    [](const Powers& own) { return own.Escaped <= LeakShare * own.Lost; });
+}
+
+DoubleLanes PowerBalance::TakenBySurfaces(const LightField& field, int band) const
+{
+  DoubleLanes taken{};
+  const Lanes* const arrives = field.MultipleIlluminance.data() + field.PatchIndex(band, 0, 0);
+  for (std::size_t side = 0; side < this->Area_.size(); ++side)
+  {
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      taken[batch] += (1.0 - this->Reflectance_[side]) * this->Area_[side] * arrives[side][batch];
+    }
+  }
+  return taken;
+}
+
+void PowerBalance::Restore(
+  const std::vector<Powers>& powers, const DoubleLanes& more, LightField& field, int band) const
+{
+  Lanes factors;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    const double lost = powers[batch].Lost;
+    factors[batch] = lost > 0.0 && lost + more[batch] > 0.0
+                       ? static_cast<float>(lost / (lost + more[batch]))
+                       : 1.0F;
+  }
+  const auto scale = [&](Lanes* values, std::size_t count)
+  {
+    this->ForEach(count,
+      [&](std::size_t i)
+      {
+        for (int batch = 0; batch < Batches; ++batch)
+        {
+          values[i][batch] *= factors[batch];
+        }
+      });
+  };
+  scale(field.MultipleFluence.data() + field.CellIndex(band, 0), field.Cells);
+  scale(field.MultipleIlluminance.data() + field.PatchIndex(band, 0, 0), this->Area_.size());
 }
 
 void PowerBalance::ExpectLoss(const std::vector<Powers>& powers) const
@@ -196,31 +244,29 @@ void PowerBalance::ScaleLatest(
 void PowerBalance::ScaleSums(
   const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
-  const Scales scales = this->ScalesOf(powers);
-  if (!this->Sky_ && scales.OwnSpread < scales.Spread)
-  {
-    this->Scale(scales.Own, batches);
-  }
+  this->ScaleBy(this->ScalesOf(powers), 1.0, Closed(powers), batches);
 }
 
 void PowerBalance::ScaleCompleted(
   const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
+  const Scales scales = this->ScalesOf(powers);
+  const bool clear = std::abs(scales.Common - 1.0) > ClearDeviations * scales.CommonError;
+  this->ScaleBy(scales, ClearShare, clear || Closed(powers), batches);
+}
+
+void PowerBalance::ScaleBy(
+  Scales scales, double share, bool alike, std::vector<BatchState>& batches) const
+{
   if (this->Sky_)
   {
     return;
   }
-  Scales scales = this->ScalesOf(powers);
-  if (scales.OwnSpread < ClearShare * scales.Spread)
+  if (!(scales.OwnSpread < share * scales.Spread))
   {
-    this->Scale(scales.Own, batches);
-    return;
+    scales.Own.fill(alike ? scales.Common : 1.0);
   }
-  if (std::abs(scales.Common - 1.0) > ClearDeviations * scales.CommonError)
-  {
-    scales.Own.fill(scales.Common);
-    this->Scale(scales.Own, batches);
-  }
+  this->Scale(scales.Own, batches);
 }
 
 void PowerBalance::Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const

@@ -52,12 +52,24 @@ public:
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
   /// they do not agree better each for itself.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
-  /// Scales the sums where the batches then agree better.
+  /// Scales the sums, each batch for itself where they then agree better, else all alike where no
+  /// light leaves the scene: then all of it is known to be lost there.
   void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales sums that diffusion completes, each batch for itself where they then agree much better:
   /// else that would bring the noise of the balance along; all alike where what they lose is
-  /// clearly not what is emitted.
+  /// clearly not what is emitted, or no light leaves the scene.
   void ScaleCompleted(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
+
+  /// Whether no light leaves the scene, but for what rounding lets through corners.
+  static bool Closed(const std::vector<Powers>& powers);
+  /// What surfaces take up and absorb of the light that is kept in a field, which is not direct, a
+  /// value a batch [lm].
+  DoubleLanes TakenBySurfaces(const LightField& field, int band) const;
+  /// Scales all that is kept so that as much is lost as was before that changed.
+  /// @param powers of the sums that were kept
+  /// @param more lost than then [lm]
+  void Restore(
+    const std::vector<Powers>& powers, const DoubleLanes& more, LightField& field, int band) const;
 
 private:
   struct Scales
@@ -72,6 +84,9 @@ private:
 
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
+  /// @param share of the spread of the batches below which each is scaled for itself
+  /// @param alike whether else all are
+  void ScaleBy(Scales scales, double share, bool alike, std::vector<BatchState>& batches) const;
   void Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const;
   /// Runs body(i) for each batch.
   template <class Body> void ForEach(std::size_t batches, Body&& body) const;
