@@ -1,16 +1,14 @@
 #include "DirectBalance.h"
 
-#include "LightField.h"
 #include "NearLights.h"
-#include "ReduceCells.h"
 #include "Sampler.h"
 #include "Scene.h"
+#include "Team.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <vector>
+#include <string>
 
 namespace smokevis
 {
@@ -22,102 +20,191 @@ namespace
 constexpr std::size_t AllRays = 16384;
 constexpr std::size_t FewestRays = 64;
 constexpr std::size_t MostRays = 1024;
+/// What all lights add everywhere is kept in so much memory at most [bytes].
+constexpr std::size_t MostMemory = std::size_t{1} << 28;
+/// Most that light is scaled by: what is off by more has another reason, such as a lamp of which
+/// few cells know, and is left.
+constexpr double MostChange = 0.04;
 
-/// What cells that lights are near to get of these [lx].
-float NearFluence(const NearLights& lights, std::size_t place, int band)
+void Add(Spectrum& sum, const Spectrum& value)
 {
-  double sum = 0.0;
-  for (std::size_t light = 0; light < lights.Cells()[place].Lights.size(); ++light)
+  for (std::size_t band = 0; band < sum.size(); ++band)
   {
-    sum += lights.Mean(place, light, band);
+    sum[band] += value[band];
   }
-  return static_cast<float>(sum);
 }
 
 } // namespace
 
-bool DirectBalance::Closed() const
+DirectBalance::DirectBalance(
+  const Scene& scene, const LightField& field, std::size_t blocks, std::size_t parts)
+    : Scene_(scene), Cells_(field.Cells), Blocks_(blocks), Parts_(parts), Patches_(field.Patches),
+      Watched_(scene.Lights().Lights().size())
 {
-  const std::vector<int>& lights = this->Scene_.Lights().Lights();
-  if (lights.empty())
+  const std::size_t sides = 2 * this->Patches_;
+  const std::size_t items = blocks + parts + this->Patches_;
+  const std::size_t values = (this->Cells_ + sides) * scene.Bands();
+  if (this->Watched_.size() * (values * sizeof(float) + items * sizeof(Power)) > MostMemory)
   {
-    return false;
+    return;
   }
-  const Geometry& shapes = this->Scene_.Shapes();
-  const std::size_t rays = std::clamp(AllRays / lights.size(), FewestRays, MostRays);
-  for (std::size_t light = 0; light < lights.size(); ++light)
+  bool any = false;
+  for (std::size_t light = 0; light < this->Watched_.size(); ++light)
   {
-    const LightGroup& root = this->Scene_.Lights().Root(light);
-    const Vec3 along = glm::normalize(root.Corners[1] - root.Corners[0]);
-    const EvenPoints points(Mix(light));
-    for (std::size_t i = 0; i < rays; ++i)
+    if (this->Closed(light))
     {
-      const auto random = points.Point(i);
-      const Hit hit =
-        shapes.Intersect(root.At(random[0], random[1]) + 10.0 * shapes.Tolerance() * root.Normal,
-          LambertianDirection(root.Normal, along, random[2], random[3]), 0.0,
-          std::numeric_limits<double>::infinity());
-      // Of what is dark, since it lies in a solid, nothing is known.
-      if (!hit.Found() || this->Scene_.ExposedArea(this->Scene_.Patch(hit), hit.Side) == 0.0)
-      {
-        return false;
-      }
+      any = true;
+      // One more cell: without smoke there are none.
+      this->Watched_[light].Cells.resize((this->Cells_ + 1) * scene.Bands());
+      this->Watched_[light].Sides.resize(sides * scene.Bands());
+    }
+  }
+  this->Powers_.resize(any ? items * this->Watched_.size() : 0);
+}
+
+bool DirectBalance::Closed(std::size_t light) const
+{
+  const Geometry& shapes = this->Scene_.Shapes();
+  const LightGroup& root = this->Scene_.Lights().Root(light);
+  const Vec3 along = glm::normalize(root.Corners[1] - root.Corners[0]);
+  const Vec3 lift = 10.0 * shapes.Tolerance() * root.Normal;
+  const std::size_t rays = std::clamp(AllRays / this->Watched_.size(), FewestRays, MostRays);
+  const EvenPoints points(1);
+  for (std::size_t i = 0; i < rays; ++i)
+  {
+    const auto random = points.Point(i);
+    const Hit hit = shapes.Intersect(root.At(random[0], random[1]) + lift,
+      LambertianDirection(root.Normal, along, random[2], random[3]), 0.0,
+      std::numeric_limits<double>::infinity());
+    // Of what is dark, since it lies in a solid, nothing is known.
+    if (!hit.Found() || this->Scene_.ExposedArea(this->Scene_.Patch(hit), hit.Side) == 0.0)
+    {
+      return false;
     }
   }
   return true;
 }
 
-double DirectBalance::CaptureOf(std::int64_t cell, int band) const
+Spectrum DirectBalance::TakenIn(std::int64_t cell, const Spectrum& fluence) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  return smoke.Extinction(cell) * this->Scene_.ExtinctionScale(band) * smoke.OwnVolume(cell);
+  const double capture = smoke.Extinction(cell) * smoke.OwnVolume(cell);
+  Spectrum taken{};
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    taken[band] = capture * this->Scene_.ExtinctionScale(band) * fluence[band];
+  }
+  return taken;
 }
 
-std::optional<double> DirectBalance::Scale(int band) const
+void DirectBalance::AddToCell(
+  std::size_t block, std::size_t light, std::int64_t cell, const Spectrum& fluence)
 {
-  const Scene& scene = this->Scene_;
-  double emitted = 0.0;
-  for (std::size_t cell = 0; cell < scene.Lights().Cells().size(); ++cell)
+  Power& power = this->PowerOf(block, light);
+  const NearLights& near = this->Scene_.Near();
+  const int place = near.Place(cell);
+  if (place >= 0 && near.Find(place, light) >= 0)
   {
-    emitted += scene.Lights().LeftToLines(cell) ? 0.0 : scene.Lights().CellFlux(cell, band);
+    Add(power.Known, this->TakenIn(cell, fluence));
+    return;
   }
-  float* const fluence = this->Field_.DirectFluence.data() + this->Field_.CellIndex(band, 0);
-  double rest = ReduceCells(
-    this->Field_.Cells, 0.0,
-    [&](double& sum, std::int64_t cell) { sum += this->CaptureOf(cell, band) * fluence[cell]; },
-    std::plus<>());
-  float* const illuminance =
-    this->Field_.DirectIlluminance.data() + this->Field_.PatchIndex(band, 0, 0);
-  const std::size_t sides = 2 * this->Field_.Patches;
-  for (std::size_t side = 0; side < sides; ++side)
+  Add(power.Scaled, this->TakenIn(cell, fluence));
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    rest += scene.ExposedArea(side / 2, side % 2) * illuminance[side];
+    this->Watched_[light].Cells[band * this->Cells_ + cell] = static_cast<float>(fluence[band]);
   }
-  // What is known from close to the lights stays as it is.
-  const NearLights& lights = scene.Near();
-  std::vector<float> near(lights.Cells().size());
-  double known = 0.0;
-  for (std::size_t place = 0; place < near.size(); ++place)
+}
+
+void DirectBalance::AddToPart(
+  std::size_t part, std::size_t light, std::int64_t cell, const Spectrum& fluence)
+{
+  Add(this->PowerOf(this->Blocks_ + part, light).Known, this->TakenIn(cell, fluence));
+}
+
+void DirectBalance::AddToPatch(
+  std::size_t patch, int side, std::size_t light, const Spectrum& illuminance)
+{
+  Power& power = this->PowerOf(this->Blocks_ + this->Parts_ + patch, light);
+  const double area = this->Scene_.ExposedArea(patch, side);
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
-    const std::int64_t cell = lights.Cells()[place].Index;
-    near[place] = std::min(fluence[cell], NearFluence(lights, place, band));
-    known += this->CaptureOf(cell, band) * near[place];
+    power.Scaled[band] += area * illuminance[band];
+    this->Watched_[light].Sides[2 * (band * this->Patches_ + patch) + side] =
+      static_cast<float>(illuminance[band]);
   }
-  const double scale = (emitted - known) / (rest - known);
-  if (!(std::abs(scale - 1.0) < MostChange))
+}
+
+void DirectBalance::Complete(Team& team)
+{
+  const auto complete = [&](std::size_t first, std::size_t count)
   {
-    return std::nullopt;
-  }
-  const auto factor = static_cast<float>(scale);
-  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+    team.Complete<Power>(count,
+      [&](std::size_t item, auto&& take)
+      {
+        for (std::size_t light = 0; light < this->Watched_.size(); ++light)
+        {
+          take(this->PowerOf(first + item, light));
+        }
+      });
+  };
+  complete(0, this->Blocks_);
+  complete(this->Blocks_, this->Parts_);
+  complete(this->Blocks_ + this->Parts_, this->Patches_);
+}
+
+std::vector<WorkItem> DirectBalance::MakeUp(
+  Team& team, std::vector<Spectrum>& cells, std::vector<std::array<Spectrum, 2>>& patches)
+{
+  std::vector<WorkItem> done;
+  if (this->Powers_.empty())
   {
-    const int place = lights.Place(static_cast<std::int64_t>(cell));
-    const float kept = place < 0 ? 0.0F : near[place];
-    fluence[cell] = kept + factor * (fluence[cell] - kept);
+    return done;
   }
-  std::transform(illuminance, illuminance + sides, illuminance,
-    [factor](float value) { return factor * value; });
-  return scale;
+  this->Complete(team);
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    double scaled = 0.0;
+    double lacked = 0.0;
+    double all = 0.0;
+    for (std::size_t light = 0; light < this->Watched_.size(); ++light)
+    {
+      const LightGroup& root = this->Scene_.Lights().Root(light);
+      const double emitted = root.Law.UnitFlux() * root.Intensity[band];
+      all += emitted;
+      double known = 0.0;
+      double rest = 0.0;
+      for (std::size_t item = 0; item < this->Blocks_ + this->Parts_ + this->Patches_; ++item)
+      {
+        known += this->PowerOf(item, light).Known[band];
+        rest += this->PowerOf(item, light).Scaled[band];
+      }
+      const double change = (emitted - known) / rest - 1.0;
+      if (!this->Watches(light) || !(std::abs(change) < MostChange))
+      {
+        continue;
+      }
+      scaled += 1.0;
+      lacked += emitted - known - rest;
+      const Watched& own = this->Watched_[light];
+      for (std::size_t cell = 0; cell < this->Cells_; ++cell)
+      {
+        cells[cell][band] += change * own.Cells[band * this->Cells_ + cell];
+      }
+      for (std::size_t side = 0; side < 2 * this->Patches_; ++side)
+      {
+        patches[side / 2][side % 2][band] += change * own.Sides[2 * band * this->Patches_ + side];
+      }
+    }
+    if (scaled > 0.0)
+    {
+      const std::string name = "band " + std::to_string(band) + ": ";
+      done.push_back({name + "lights scaled to their power", scaled,
+        "none of their light leaves the scene: smoke and surfaces take up what they send out"});
+      done.push_back({name + "direct light lacked", lacked / all,
+        "share of what lights send out, before they were scaled"});
+    }
+  }
+  return done;
 }
 
 } // namespace smokevis

@@ -38,6 +38,11 @@ public:
     const double mean = this->Means_[band * this->Cells_ + cell];
     return mean > 0.0 ? mean * this->Shapes_[band].Emerging(cell, begin, step, depth) : 0.0;
   }
+  double SmoothEmerging(const SmokePiece& piece, int band) const
+  {
+    const double mean = this->Means_[band * this->Cells_ + piece.Cell];
+    return mean > 0.0 ? mean * this->Shapes_[band].Emerging(piece) : 0.0;
+  }
   /// Has the processor fetch what these read.
   void Fetch(std::int64_t cell, int band) const
   {

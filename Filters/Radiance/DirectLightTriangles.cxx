@@ -30,6 +30,8 @@ constexpr std::array<double, 2> SixWeights = {0.109951743655322, 0.2233815896780
 constexpr int MostSplits = 14;
 /// How often one is split, in all, that the edge of a shadow runs through.
 constexpr int ShadowSplits = 4;
+/// The same where that may only be: a grid throws many shadows.
+constexpr int AlikeSplits = 2;
 
 /// What lies before the plane of a plate of a triangle that it cuts, in one or two triangles.
 struct Front
@@ -145,8 +147,8 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
   std::transform(corners.begin(), corners.end(), seen.begin(),
     [&](const Vec3& corner)
     { return this->Sight_.SeenOfAll(root, glm::mix(centre, corner, ThreePoints[0])); });
-  // Where the same places are seen from all points, as of a lamp that is sunk into a wall, no edge
-  // of a shadow runs through the triangle.
+  // Where the same places are seen from all points, as of a lamp that is sunk into a wall, hardly
+  // an edge of a shadow runs through the triangle.
   const bool alike = seen[0] == seen[1] && seen[0] == seen[2];
   const Sight sight = LightSight::OfSeen(seen[0]);
   if (alike && sight == Sight::None)
@@ -154,7 +156,7 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     return;
   }
   const bool clear = alike && sight == Sight::Whole;
-  if (!alike && level < ShadowSplits)
+  if (!clear && level < (alike ? AlikeSplits : ShadowSplits))
   {
     splitAll();
     return;

@@ -1,6 +1,7 @@
 #include "DirectSolve.h"
 
 #include "ClearBorders.h"
+#include "DirectBalance.h"
 #include "DirectLight.h"
 #include "NearLights.h"
 #include "ReportedLoop.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 
 namespace smokevis
 {
@@ -30,9 +32,18 @@ constexpr double CellShare = 0.8;
 DirectSolve::DirectSolve(const Scene& scene, const LightFieldOptions& options, Team& team,
   Progress& progress, tbb::task_arena& arena, double share, LightField& field)
     : Scene_(scene), Options_(options), Team_(team), Progress_(progress), Arena_(arena),
-      Share_(share), Field_(field)
+      Share_(share), Field_(field), Blocks_(scene.Smoke().Blocks(BlockEdge)),
+      CellSums_(field.Cells, Spectrum{}), PatchSums_(field.Patches)
 {
+  this->Arena_.execute(
+    [&]
+    {
+      this->Balance_ = std::make_unique<DirectBalance>(
+        scene, field, this->Blocks_.size(), scene.Smoke().Parts().Parts().size());
+    });
 }
+
+DirectSolve::~DirectSolve() = default;
 
 template <class Body>
 void DirectSolve::ForOwn(std::size_t count, std::size_t grain, double from, double to, Body&& body)
@@ -89,7 +100,7 @@ void DirectSolve::NearCells()
     cells.size(), [&](std::size_t cell, auto&& take) { near.ForEachMean(cell, take); });
 }
 
-void DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sums)
+void DirectSolve::AddParts(const DirectLight& direct)
 {
   const std::vector<CellPart>& parts = this->Scene_.Smoke().Parts().Parts();
   if (parts.empty())
@@ -101,18 +112,51 @@ void DirectSolve::AddParts(const DirectLight& direct, std::vector<Spectrum>& sum
   this->ForOwn(parts.size(), 16, NearShare, PartShare,
     [&](std::size_t part)
     {
-      Spectrum& sum = sums[parts[part].Number];
+      Spectrum& sum = this->CellSums_[parts[part].Number];
       for (std::size_t light = 0; light < this->Scene_.Lights().Lights().size(); ++light)
       {
         const Spectrum value = direct.PartFluence(light, parts[part]);
+        if (this->Balance_->Watches(light))
+        {
+          this->Balance_->AddToPart(part, light, parts[part].Number, value);
+        }
         for (int band = 0; band < this->Field_.Bands; ++band)
         {
           sum[band] += value[band];
         }
       }
     });
-  this->Team_.Complete<Spectrum>(
-    parts.size(), [&](std::size_t part, auto&& take) { take(sums[parts[part].Number]); });
+  this->Team_.Complete<Spectrum>(parts.size(),
+    [&](std::size_t part, auto&& take) { take(this->CellSums_[parts[part].Number]); });
+}
+
+std::vector<Spectrum> DirectSolve::SumsIn(std::size_t block, std::size_t light) const
+{
+  std::vector<Spectrum> sums;
+  if (this->Balance_->Watches(light))
+  {
+    this->Blocks_[block].ForEachCell([&](const std::array<int, 3>& place)
+      { sums.push_back(this->CellSums_[this->Scene_.Smoke().Cell(this->Blocks_[block], place)]); });
+  }
+  return sums;
+}
+
+void DirectSolve::Note(std::size_t block, std::size_t light, const std::vector<Spectrum>& before)
+{
+  if (before.empty())
+  {
+    return;
+  }
+  std::size_t number = 0;
+  this->Blocks_[block].ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::int64_t cell = this->Scene_.Smoke().Cell(this->Blocks_[block], place);
+      Spectrum added = this->CellSums_[cell];
+      const Spectrum& earlier = before[number++];
+      std::transform(added.begin(), added.end(), earlier.begin(), added.begin(), std::minus<>());
+      this->Balance_->AddToCell(block, light, cell, added);
+    });
 }
 
 void DirectSolve::Cells()
@@ -123,44 +167,23 @@ void DirectSolve::Cells()
     return;
   }
   const DirectLight direct(this->Scene_, &this->Scene_.Near());
-  const std::vector<Medium::Block> blocks = smoke.Blocks(BlockEdge);
-  std::vector<Spectrum> sums(this->Field_.Cells, Spectrum{});
   this->NearCells();
-  this->AddParts(direct, sums);
+  this->AddParts(direct);
   std::atomic<std::size_t> told{0};
   std::atomic<std::size_t> negligible{0};
-  this->ForOwn(blocks.size(), 1, PartShare, CellShare,
+  this->ForOwn(this->Blocks_.size(), 1, PartShare, CellShare,
     [&](std::size_t block)
     {
-      const ClearBorders borders(smoke, blocks[block]);
-      for (const std::size_t light : this->StrongestFirst(blocks[block]))
+      const ClearBorders borders(smoke, this->Blocks_[block]);
+      for (const std::size_t light : this->StrongestFirst(this->Blocks_[block]))
       {
+        const std::vector<Spectrum> before = this->SumsIn(block, light);
         const DirectLight::BlockWork work =
-          direct.AddBlockFluence(light, borders, this->Options_.Skips, sums);
+          direct.AddBlockFluence(light, borders, this->Options_.Skips, this->CellSums_);
         told += work.Told;
         negligible += work.Negligible;
+        this->Note(block, light, before);
       }
-    });
-  for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
-  {
-    for (int band = 0; band < this->Field_.Bands; ++band)
-    {
-      this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)] =
-        static_cast<float>(sums[cell][band]);
-    }
-  }
-  this->Team_.Complete<float>(blocks.size(),
-    [&](std::size_t index, auto&& take)
-    {
-      blocks[index].ForEachCell(
-        [&](const std::array<int, 3>& place)
-        {
-          const std::int64_t cell = smoke.Cell(blocks[index], place);
-          for (int band = 0; band < this->Field_.Bands; ++band)
-          {
-            take(this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)]);
-          }
-        });
     });
   this->Field_.Report.push_back({"optical depths between cells and lights not walked",
     static_cast<double>(this->Team_.Sum(told.load())), "neighbouring cells' ways tell them"});
@@ -178,13 +201,11 @@ void DirectSolve::Patches()
   }
   const DirectLight direct(this->Scene_);
   const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(this->Scene_);
-  const auto illuminance = [this](int band, std::size_t patch, int side) -> float&
-  { return this->Field_.DirectIlluminance[this->Field_.PatchIndex(band, patch, side)]; };
   this->ForOwn(patches.size(), 16, CellShare, 1.0,
     [&](std::size_t patch)
     {
-      std::array<Spectrum, 2> sum{};
       double area = 0.0;
+      std::vector<std::array<Spectrum, 2>> ofLights(lights);
       for (const Triangle& corners : patches[patch])
       {
         const Vec3 normal = glm::normalize(AreaVector(corners));
@@ -197,7 +218,7 @@ void DirectSolve::Patches()
           {
             for (int band = 0; band < this->Field_.Bands; ++band)
             {
-              sum[side][band] += own * value[side][band];
+              ofLights[light][side][band] += own * value[side][band];
             }
           }
         }
@@ -208,13 +229,58 @@ void DirectSolve::Patches()
         const double dark = this->Scene_.EnclosedArea(patch, side);
         const bool covered = dark > 0.0 && this->Scene_.ExposedArea(patch, side) == 0.0;
         const double scale = covered || !(area > dark) ? 0.0 : 1.0 / (area - dark);
-        for (int band = 0; band < this->Field_.Bands; ++band)
+        for (std::size_t light = 0; light < lights; ++light)
         {
-          illuminance(band, patch, side) = static_cast<float>(scale * sum[side][band]);
+          Spectrum& own = ofLights[light][side];
+          for (int band = 0; band < this->Field_.Bands; ++band)
+          {
+            own[band] *= scale;
+            this->PatchSums_[patch][side][band] += own[band];
+          }
+          if (this->Balance_->Watches(light))
+          {
+            this->Balance_->AddToPatch(patch, side, light, own);
+          }
         }
       }
     });
-  this->Team_.Complete<float>(patches.size(),
+}
+
+void DirectSolve::Finish()
+{
+  const std::vector<WorkItem> done =
+    this->Balance_->MakeUp(this->Team_, this->CellSums_, this->PatchSums_);
+  this->Field_.Report.insert(this->Field_.Report.end(), done.begin(), done.end());
+  const auto fluence = [this](int band, std::size_t cell) -> float&
+  { return this->Field_.DirectFluence[this->Field_.CellIndex(band, cell)]; };
+  const auto illuminance = [this](int band, std::size_t patch, int side) -> float&
+  { return this->Field_.DirectIlluminance[this->Field_.PatchIndex(band, patch, side)]; };
+  for (int band = 0; band < this->Field_.Bands; ++band)
+  {
+    for (std::size_t cell = 0; cell < this->Field_.Cells; ++cell)
+    {
+      fluence(band, cell) = static_cast<float>(this->CellSums_[cell][band]);
+    }
+    for (std::size_t side = 0; side < 2 * this->Field_.Patches; ++side)
+    {
+      illuminance(band, side / 2, static_cast<int>(side % 2)) =
+        static_cast<float>(this->PatchSums_[side / 2][side % 2][band]);
+    }
+  }
+  this->Team_.Complete<float>(this->Blocks_.size(),
+    [&](std::size_t block, auto&& take)
+    {
+      this->Blocks_[block].ForEachCell(
+        [&](const std::array<int, 3>& place)
+        {
+          const std::int64_t cell = this->Scene_.Smoke().Cell(this->Blocks_[block], place);
+          for (int band = 0; band < this->Field_.Bands; ++band)
+          {
+            take(fluence(band, cell));
+          }
+        });
+    });
+  this->Team_.Complete<float>(this->Field_.Patches,
     [&](std::size_t patch, auto&& take)
     {
       for (int side = 0; side < 2; ++side)

@@ -1,6 +1,5 @@
 #include "LightField.h"
 
-#include "DirectBalance.h"
 #include "DirectSolve.h"
 #include "Errors.h"
 #include "LargePages.h"
@@ -8,7 +7,6 @@
 #include "Team.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include <tbb/task_arena.h>
@@ -37,8 +35,6 @@ public:
 
 private:
   bool BandsEqual(int a, int b) const;
-  /// Holds direct light to the conservation of power.
-  void BalanceDirect();
   /// Takes what is not direct in one band for that in another.
   void CopyBand(int from, int to);
 
@@ -79,23 +75,6 @@ void Solver::CopyBand(int from, int to)
     field.MultipleIlluminance.begin() + field.PatchIndex(to, 0, 0));
 }
 
-void Solver::BalanceDirect()
-{
-  const DirectBalance balance(this->Scene_, this->Field_);
-  if (!balance.Closed())
-  {
-    return;
-  }
-  for (int band = 0; band < this->Field_.Bands; ++band)
-  {
-    if (const std::optional<double> scale = balance.Scale(band))
-    {
-      this->Field_.Report.push_back({"band " + std::to_string(band) + ": direct light scaled by",
-        *scale, "no light leaves the scene: what lights send out is taken up"});
-    }
-  }
-}
-
 LightField Solver::Run()
 {
   this->Field_.Bands = this->Scene_.Bands();
@@ -130,7 +109,7 @@ LightField Solver::Run()
     DirectShare, this->Field_);
   direct.Cells();
   direct.Patches();
-  this->Arena_.execute([this] { this->BalanceDirect(); });
+  direct.Finish();
   this->Field_.Report.push_back(LeaptAir(this->Scene_.Smoke()));
   MultipleSolve multiple(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
     DirectShare, this->Field_);

@@ -18,6 +18,9 @@ constexpr double SmallRatio = 0.05;
 /// that no two lie level with each other along either edge.
 constexpr int ShadowPlaces = 55;
 constexpr int ShadowStep = 34;
+/// The same where what is seen of a close light is weighted place by place.
+constexpr int ClosePlaces = 144;
+constexpr int CloseStep = 89;
 /// Each such place is looked at to tell whether anything is hidden.
 constexpr int FewShadowPlaces = 5;
 
@@ -25,19 +28,20 @@ constexpr int FewShadowPlaces = 5;
 /// through fractions of a plate, where rounding would decide.
 constexpr glm::dvec2 ShadowShift(0.4637, 0.5417);
 
-/// The places of the lattice, 0 to 1 along both edges.
-constexpr std::array<glm::dvec2, ShadowPlaces> MakeLattice()
+/// The places of a lattice, 0 to 1 along both edges.
+template <int Count, int Step> constexpr std::array<glm::dvec2, Count> MakeLattice()
 {
-  std::array<glm::dvec2, ShadowPlaces> places{};
-  for (int number = 0; number < ShadowPlaces; ++number)
+  std::array<glm::dvec2, Count> places{};
+  for (int number = 0; number < Count; ++number)
   {
-    places[number] = (glm::dvec2(number, number * ShadowStep % ShadowPlaces) + ShadowShift) /
-                     static_cast<double>(ShadowPlaces);
+    places[number] =
+      (glm::dvec2(number, number * Step % Count) + ShadowShift) / static_cast<double>(Count);
   }
   return places;
 }
 
-constexpr std::array<glm::dvec2, ShadowPlaces> ShadowLattice = MakeLattice();
+constexpr auto ShadowLattice = MakeLattice<ShadowPlaces, ShadowStep>();
+constexpr auto CloseLattice = MakeLattice<ClosePlaces, CloseStep>();
 
 /// The centre and the corners, which lie in from the edges: those may touch what the light hangs
 /// on.
@@ -68,7 +72,7 @@ bool LightSight::Small(const LightGroup& group, const Vec3& point)
 
 std::span<const glm::dvec2> LightSight::Lattice()
 {
-  return ShadowLattice;
+  return CloseLattice;
 }
 
 std::vector<bool> LightSight::Seen(

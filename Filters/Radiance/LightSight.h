@@ -28,8 +28,7 @@ public:
 
   /// Whether a group is seen whole or not at all, for it is far.
   static bool Small(const LightGroup& group, const Vec3& point);
-  /// Places, as evenly spread as edges of shadows ask for, that tell the share of a group that is
-  /// seen.
+  /// Places, as evenly spread as edges of shadows ask for, that tell what is seen of a close group.
   static std::span<const glm::dvec2> Lattice();
 
   /// Which of the places are seen.
@@ -43,7 +42,7 @@ public:
   Sight OfAll(const LightGroup& group, const Vec3& point) const;
   /// The same; of a small one all or nothing.
   Sight Of(const LightGroup& group, const Vec3& point) const;
-  /// Share of a group that is not hidden, as the lattice tells.
+  /// Share of a group that is not hidden, as fewer such places tell.
   double Share(const LightGroup& group, const Vec3& point) const;
 
   /// Of a group some places of which are looked at.

@@ -32,7 +32,7 @@ constexpr double DepositDepth = 0.019;
 /// Steps of lattices in smoke that is uneven, in edges of its largest cells: this over its unevenness, by which the
 /// depth of a cell is off the mean of its neighbours', and no less than the finest. Where every
 /// cell is off by 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one 1 %.
-constexpr double StepOverUnevenness = 0.02;
+constexpr double StepOverUnevenness = 0.03;
 constexpr double FinestStep = 0.25;
 
 } // namespace

@@ -20,7 +20,7 @@ namespace
 constexpr double LeastShare = 0.1;
 /// Rays to each place for each batch. All places have the same directions, so that noise hardly
 /// changes their ratios: by 1 %.
-constexpr int RaysABatch = 4;
+constexpr int RaysABatch = 2;
 /// Of the directions, which are the same in all cells: numbers of cells tell nothing of a scene.
 constexpr std::uint64_t DirectionsKey = 1;
 

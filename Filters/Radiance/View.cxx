@@ -65,17 +65,8 @@ struct View::Implementation
   }
 
   void FindLeak();
-  /// A piece of a ray inside one cell.
-  struct Piece
-  {
-    std::int64_t Cell;
-    Vec3 Begin, Step;
-    double Depth, Lost;
-    /// Where a source that varies linearly along the piece takes its mean.
-    Vec3 Middle;
-  };
   /// Adds weight times the batches of what multiply scattered light sends out of a piece.
-  void AddMultiple(const Piece& piece, int band, double weight, Lanes& sum) const;
+  void AddMultiple(const SmokePiece& piece, int band, double weight, Lanes& sum) const;
 
   const Scene& TheScene;
   const LightField& Field;
@@ -106,13 +97,12 @@ void View::Implementation::FindLeak()
 }
 
 void View::Implementation::AddMultiple(
-  const Piece& piece, int band, double weight, Lanes& sum) const
+  const SmokePiece& piece, int band, double weight, Lanes& sum) const
 {
   const NearMultiple& near = *this->MultipleNear[band];
   const bool tells = near.Tells(piece.Cell);
   const double there = weight * (tells ? piece.Lost * near.Value(piece.Cell, piece.Middle)
-                                       : this->MultipleShape[band].Emerging(
-                                           piece.Cell, piece.Begin, piece.Step, piece.Depth));
+                                       : this->MultipleShape[band].Emerging(piece));
   Add(sum, this->Field.MultipleFluence[this->Field.CellIndex(band, piece.Cell)],
     static_cast<float>(there));
   if (!tells)
@@ -165,12 +155,11 @@ RayLight View::TraceVeil(
         const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
                                          : 1.0 / extinction - length * passed / lost;
         const Vec3 from = origin + segment.Begin * direction;
-        const Vec3 step = length * direction;
+        const SmokePiece piece{
+          segment.Cell, from, length * direction, from + mean * direction, depth, lost};
         const double weight = scatter * ahead;
-        light.VeilDirect +=
-          weight * self.DirectFluence.SmoothEmerging(segment.Cell, from, step, depth, band);
-        self.AddMultiple({segment.Cell, from, step, depth, lost, from + mean * direction}, band,
-          weight, light.VeilMultiple);
+        light.VeilDirect += weight * self.DirectFluence.SmoothEmerging(piece, band);
+        self.AddMultiple(piece, band, weight, light.VeilMultiple);
         if (self.DirectFluence.Near(segment.Cell))
         {
           light.VeilDirect += ahead * self.DirectFluence.NearVeil(segment.Cell, origin, direction,

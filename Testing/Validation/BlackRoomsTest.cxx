@@ -147,8 +147,7 @@ std::vector<double> Amiss(std::uint64_t first, std::uint64_t count)
   for (std::uint64_t seed = first; seed < first + count; ++seed)
   {
     const Solved solved(BlackRoom(seed).Description(), 0.1);
-    const double taken = solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean;
-    const double share = taken / solved.TheScene->Lights().Flux(0) - 1.0;
+    const double share = solved.PowerBeforeBalance() / solved.TheScene->Lights().Flux(0) - 1.0;
     EXPECT_TRUE(std::isfinite(share)) << "seed " << seed;
     if (!(std::abs(share) < 0.02))
     {
@@ -199,8 +198,7 @@ TEST(BlackRooms, EvenSmoke)
       report::Relative(std::to_string(room.Size.z).substr(0, 4) + " m high, " +
                          std::to_string(room.Extinction).substr(0, 3) + " per m, lamp " +
                          std::to_string(gap).substr(0, 4) + " m below the ceiling",
-        solved.TheScene->Lights().Flux(0),
-        solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean, 0.0005);
+        solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.0005);
     }
   }
 }
@@ -222,7 +220,7 @@ TEST(BlackRooms, PlateRightInsideAFace)
     scene.Emitters = {scenes::Plate(place, {1, 0, 0}, {0, 0, 1}, 1.1 * cell, 1.3 * cell, 1000.0)};
     const Solved solved(std::move(scene), 0.1);
     report::Relative(std::to_string(share) + " of a cell", solved.TheScene->Lights().Flux(0),
-      solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean, 0.01);
+      solved.PowerBeforeBalance(), 0.01);
   }
 }
 

@@ -92,8 +92,8 @@ TEST(Photometry, NoLightIsLost)
     const Estimate smoke = solved.AbsorbedInSmoke();
     const Estimate surfaces = solved.AbsorbedOnSurfaces();
     // Some patches of 0.25 m are cut by the beam's edge, which the quadrature does not see.
-    report::Relative("reflectance " + std::to_string(reflectance), flux, smoke.Mean + surfaces.Mean,
-      0.005, std::hypot(smoke.StandardError, surfaces.StandardError));
+    report::Relative("reflectance " + std::to_string(reflectance), flux,
+      solved.PowerBeforeBalance(), 0.005, std::hypot(smoke.StandardError, surfaces.StandardError));
   }
 }
 
@@ -112,7 +112,7 @@ TEST(Photometry, SharpBeams)
     const Solved solved(std::move(scene), 0.1);
     const Estimate smoke = solved.AbsorbedInSmoke();
     const Estimate surfaces = solved.AbsorbedOnSurfaces();
-    report::Relative(name, solved.TheScene->Lights().Flux(0), smoke.Mean + surfaces.Mean, 0.005,
+    report::Relative(name, solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.005,
       std::hypot(smoke.StandardError, surfaces.StandardError));
     EXPECT_GT(smoke.StandardError, 0.0);
   };

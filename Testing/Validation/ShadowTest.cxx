@@ -82,11 +82,6 @@ double AmissInRow(const Solved& solved, double y, double z, double from, double 
   return amiss / all;
 }
 
-double PowerTakenUp(const Solved& solved)
-{
-  return solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean;
-}
-
 // Cells that the edge of a shadow crosses are measured at 64 places: to some 2 % of an unhidden
 // cell's light each, more where several edges do. Edges on patches are followed to a 16th of their
 // triangles.
@@ -99,13 +94,16 @@ TEST(Shadows, CellsBehindBeamSlatsAndDoor)
     const Solved beam(BeamRoom(0.0, cells), 0.1);
     report::Absolute("below a beam" + size, 0.0, AmissInRow(beam, 1.6, 2.3, 1.0, 5.0), 0.04);
     report::Absolute("far below it" + size, 0.0, AmissInRow(beam, 1.6, 0.9, 1.0, 5.0), 0.03);
-    report::Relative("power" + size, beam.TheScene->Lights().Flux(0), PowerTakenUp(beam), 0.002);
+    report::Relative(
+      "power" + size, beam.TheScene->Lights().Flux(0), beam.PowerBeforeBalance(), 0.002);
     const Solved slats(SlatRoom(cells), 0.1);
     report::Absolute("below slats" + size, 0.0, AmissInRow(slats, 1.6, 1.6, 1.0, 5.0), 0.08);
-    report::Relative("power" + size, slats.TheScene->Lights().Flux(0), PowerTakenUp(slats), 0.005);
+    report::Relative(
+      "power" + size, slats.TheScene->Lights().Flux(0), slats.PowerBeforeBalance(), 0.005);
     const Solved door(DoorRoom(cells), 0.1);
     report::Absolute("behind a door" + size, 0.0, AmissInRow(door, 1.1, 0.9, 4.25, 6.0), 0.05);
-    report::Relative("power" + size, door.TheScene->Lights().Flux(0), PowerTakenUp(door), 0.004);
+    report::Relative(
+      "power" + size, door.TheScene->Lights().Flux(0), door.PowerBeforeBalance(), 0.004);
   }
 }
 
@@ -127,7 +125,7 @@ TEST(Shadows, PowerBehindPillarAndInALayer)
   }
   const Solved behind(std::move(pillar), 0.1);
   report::Relative(
-    "sign behind a pillar", behind.TheScene->Lights().Flux(0), PowerTakenUp(behind), 0.002);
+    "sign behind a pillar", behind.TheScene->Lights().Flux(0), behind.PowerBeforeBalance(), 0.002);
   for (const double extinction : {0.5, 4.0, 40.0})
   {
     SceneDescription layer = BeamRoom(0.0, 8);
@@ -137,7 +135,7 @@ TEST(Shadows, PowerBehindPillarAndInALayer)
     std::fill(layer.Grids[0].Extinction.begin() + above, layer.Grids[0].Extinction.end(), 0.0F);
     const Solved solved(std::move(layer), 0.1);
     report::Relative("layer of " + std::to_string(extinction).substr(0, 4) + " per m",
-      solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.004);
+      solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.004);
   }
 }
 
@@ -148,7 +146,7 @@ TEST(Shadows, StripOfALampHidden)
   SceneDescription scene = LampRoom(0.0, 8);
   scenes::AddBlock(scene.Surfaces, {3.08, 0.8, 2.74}, {3.16, 2.2, 2.83}, 0.2, 0.0);
   const Solved solved(std::move(scene), 0.1);
-  report::Relative("power", solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.002);
+  report::Relative("power", solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.002);
 }
 
 // What README's limits say: of a pole thinner than a cell, and of a luminous plate of tens of
@@ -166,7 +164,7 @@ TEST(Shadows, PoleAndHugePlate)
     scene.Emitters = {scenes::Plate({0.4, 1.5, 1.5}, {1, 0, 0}, {0, 0, 1}, lamp, lamp, 1000.0)};
     const Solved solved(std::move(scene), 0.1);
     report::Relative("pole, lamp of " + std::to_string(lamp).substr(0, 3) + " m",
-      solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.003);
+      solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.003);
   }
   SceneDescription hall;
   hall.Albedo = 0.0;
@@ -174,7 +172,8 @@ TEST(Shadows, PoleAndHugePlate)
   hall.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(0.8), {16, 16, 16}, 1.0)};
   hall.Emitters = {scenes::Plate({0.4, 0.4, 0.95}, {0, 0, -1}, {0, 1, 0}, 36.0, 36.0, 1000.0)};
   const Solved solved(std::move(hall), 0.1);
-  report::Relative("plate of 36 m", solved.TheScene->Lights().Flux(0), PowerTakenUp(solved), 0.08);
+  report::Relative(
+    "plate of 36 m", solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.08);
 }
 
 // In the cleft right below a beam cells are too coarse for what is seen of the lamp at either side.

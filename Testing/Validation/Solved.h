@@ -4,6 +4,7 @@
 #include "ReferenceIntegrator.h"
 #include "RisingProgress.h"
 #include "View.h"
+#include "WorkCount.h"
 
 #include <cmath>
 #include <memory>
@@ -61,6 +62,15 @@ public:
       multiple.Add(this->Field->MultipleIlluminance[index], 1.0);
     }
     return multiple.Result(direct, static_cast<double>(patches.size()));
+  }
+
+  /// Power that smoke and surfaces absorb, but for what direct light was scaled by to make up for
+  /// what it lacks in a closed room [lm]: as quadratures tell it.
+  double PowerBeforeBalance() const
+  {
+    return this->AbsorbedInSmoke().Mean + this->AbsorbedOnSurfaces().Mean -
+           WorkCount(this->Field->Report, "band 0: direct light lacked") *
+             this->TheScene->Lights().Flux(0);
   }
 
   /// Power that the smoke absorbs [lm].
