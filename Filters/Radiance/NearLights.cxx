@@ -29,10 +29,10 @@ constexpr double SmoothestLaw = 1.4;
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
 
-/// Steps of lattices in smoke that is uneven, in edges of its largest cells: this over its unevenness, by which the
-/// depth of a cell is off the mean of its neighbours', and no less than the finest. Where every
-/// cell is off by 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one 1 %.
-constexpr double StepOverUnevenness = 0.03;
+/// Longest steps of lattices in edges of the largest cells: this over the smoke's unevenness, or
+/// the finest. Where that is 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one
+/// 1 %.
+constexpr double StepOverUnevenness = 0.02;
 constexpr double FinestStep = 0.25;
 
 } // namespace
@@ -50,13 +50,14 @@ NearLights::NearLights(const Scene& scene)
   this->Places_.assign(smoke.Cells(), -1);
   for (std::size_t light = 0; light < this->Fields_.size(); ++light)
   {
-    const double reach = this->FindCells(light);
+    const Surroundings around = this->FindCells(light);
     // Light that changes quickly with the angle would need finer lattices.
     const LightGroup& root = lights.Root(light);
-    if (reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
+    if (around.Reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
-      this->Fields_[light] =
-        std::make_unique<NearField>(scene, this->Direct_, light, reach, this->LongestStep(light, reach));
+      const double edge = around.Reach / NearEdges;
+      this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, around.Reach,
+        edge * std::max(FinestStep, StepOverUnevenness / around.Unevenness));
     }
   }
   tbb::parallel_for(std::size_t{0}, this->Cells_.size(),
@@ -97,36 +98,6 @@ NearLights::NearLights(const Scene& scene)
       }
     }
   }
-}
-
-double NearLights::LongestStep(std::size_t light, double reach) const
-{
-  const Medium& smoke = this->Scene_.Smoke();
-  double squares = 0.0;
-  int count = 0;
-  for (const Cell& cell : this->Cells_)
-  {
-    if (cell.Lights.back().Index != light)
-    {
-      continue;
-    }
-    const Vec3 size = smoke.CellSize(cell.Index);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const std::int64_t low = this->Scene_.Open().Neighbour(cell.Index, axis, 0);
-      const std::int64_t high = this->Scene_.Open().Neighbour(cell.Index, axis, 1);
-      if (low >= 0 && high >= 0)
-      {
-        const double beside = 0.5 * (smoke.Extinction(low) + smoke.Extinction(high));
-        const double off = (smoke.Extinction(cell.Index) - beside) * size[axis];
-        squares += off * off;
-        ++count;
-      }
-    }
-  }
-  const double unevenness =
-    this->Scene_.LargestScale() * std::sqrt(squares / static_cast<double>(std::max(1, count)));
-  return reach / NearEdges * std::max(FinestStep, StepOverUnevenness / unevenness);
 }
 
 int NearLights::Find(std::size_t cell, std::size_t light) const
@@ -182,7 +153,7 @@ double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
   return static_cast<float>(mean[band]);
 }
 
-double NearLights::FindCells(std::size_t light)
+NearLights::Surroundings NearLights::FindCells(std::size_t light)
 {
   const Medium& smoke = this->Scene_.Smoke();
   const LightGroup& root = this->Scene_.Lights().Root(light);
@@ -193,7 +164,9 @@ double NearLights::FindCells(std::size_t light)
   const Vec3 high = glm::max(glm::max(root.Corners[0], root.Corners[1]),
                       glm::max(root.Corners[2], root.Corners[3])) +
                     largest;
-  double reach = 0.0;
+  Surroundings around;
+  double squares = 0.0;
+  int count = 0;
   smoke.ForCellsIn(low, high,
     [&](std::int64_t cell)
     {
@@ -218,9 +191,23 @@ double NearLights::FindCells(std::size_t light)
       }
       this->Cells_[place].Lights.push_back(
         {static_cast<std::uint32_t>(light), false, false, false});
-      reach = std::max(reach, distance + 0.5 * glm::length(size));
+      around.Reach = std::max(around.Reach, distance + 0.5 * glm::length(size));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const std::int64_t below = this->Scene_.Open().Neighbour(cell, axis, 0);
+        const std::int64_t above = this->Scene_.Open().Neighbour(cell, axis, 1);
+        if (below >= 0 && above >= 0)
+        {
+          const double beside = 0.5 * (smoke.Extinction(below) + smoke.Extinction(above));
+          const double off = (smoke.Extinction(cell) - beside) * size[axis];
+          squares += off * off;
+          ++count;
+        }
+      }
     });
-  return reach;
+  around.Unevenness =
+    this->Scene_.LargestScale() * std::sqrt(squares / static_cast<double>(std::max(1, count)));
+  return around;
 }
 
 } // namespace smokevis

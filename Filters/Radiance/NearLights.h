@@ -81,12 +81,16 @@ private:
   }
   double FindMean(std::size_t cell, std::size_t light, int band) const;
   void Keep(std::size_t index, const Spectrum& mean) const;
-  /// Finds the cells near to a light; returns how far from it they reach [m].
-  double FindCells(std::size_t light);
-  /// Step of lattices that follow how smoke changes between the cells near to the light whose cells
-  /// were found last [m].
-  /// @param reach how far from the light these reach [m]
-  double LongestStep(std::size_t light, double reach) const;
+  /// The cells near to a light.
+  struct Surroundings
+  {
+    /// How far from the light they reach [m].
+    double Reach = 0.0;
+    /// By how much the optical depth of a cell is off the mean of its neighbours' along an axis, in
+    /// the mean square.
+    double Unevenness = 0.0;
+  };
+  Surroundings FindCells(std::size_t light);
 
   const Scene& Scene_;
   DirectLight Direct_;

@@ -75,8 +75,9 @@ struct View::Implementation
   /// How the multiply scattered fluence varies inside the cells.
   std::array<CellShape, 3> MultipleShape;
   std::array<ShapeNoise, 3> MultipleNoise;
+  /// All but direct light along rays, none where nothing scatters; and how it varies inside cells
+  /// right beside lights.
   std::array<std::unique_ptr<IndirectLight>, 3> Indirect;
-  /// The same right beside lights.
   std::array<std::unique_ptr<NearMultiple>, 3> MultipleNear;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};

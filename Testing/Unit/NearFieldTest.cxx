@@ -58,7 +58,7 @@ TEST(NearField, FollowsThePattern)
 }
 
 // In smoke that differs from cell to cell like noise: steps of the lattice are as fine as that
-// asks for. Steps that the plate alone asks for leave 5 % in the mean square.
+// asks for. Steps that the plate alone asks for leave 2.5 % in the mean square.
 TEST(NearField, SmokeLikeNoise)
 {
   SceneDescription description = test::BarredSign(1);
