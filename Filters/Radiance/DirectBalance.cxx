@@ -16,15 +16,16 @@ namespace smokevis
 namespace
 {
 
-/// Rays from all lights, and from each at least and at most.
-constexpr std::size_t AllRays = 16384;
-constexpr std::size_t FewestRays = 64;
-constexpr std::size_t MostRays = 1024;
+/// Rays from a light.
+constexpr std::size_t Rays = 1024;
 /// What all lights add everywhere is kept in so much memory at most [bytes].
 constexpr std::size_t MostMemory = std::size_t{1} << 28;
-/// Most that light is scaled by: what is off by more has another reason, such as a lamp of which
-/// few cells know, and is left.
+/// Most of a light's power that is made up for, and most that light is scaled by: what is off by
+/// more has another reason, such as a lamp of which few cells know, and is left.
 constexpr double MostChange = 0.04;
+/// How many times the error of light that is known from close by, as a share, that of the rest is
+/// taken to be.
+constexpr double ErrorRatio = 6.0;
 
 void Add(Spectrum& sum, const Spectrum& value)
 {
@@ -68,13 +69,18 @@ bool DirectBalance::Closed(std::size_t light) const
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 along = glm::normalize(root.Corners[1] - root.Corners[0]);
   const Vec3 lift = 10.0 * shapes.Tolerance() * root.Normal;
-  const std::size_t rays = std::clamp(AllRays / this->Watched_.size(), FewestRays, MostRays);
+  if (root.Law.Measured())
+  {
+    return false;
+  }
   const EvenPoints points(1);
-  for (std::size_t i = 0; i < rays; ++i)
+  for (std::size_t i = 0; i < Rays; ++i)
   {
     const auto random = points.Point(i);
+    // As often as the light sends them out, which goes as a power of the cosine.
+    const double square = 1.0 - std::pow(random[2], 2.0 / (2.0 + root.Law.Exponent()));
     const Hit hit = shapes.Intersect(root.At(random[0], random[1]) + lift,
-      LambertianDirection(root.Normal, along, random[2], random[3]), 0.0,
+      LambertianDirection(root.Normal, along, square, random[3]), 0.0,
       std::numeric_limits<double>::infinity());
     // Of what is dark, since it lies in a solid, nothing is known.
     if (!hit.Found() || this->Scene_.ExposedArea(this->Scene_.Patch(hit), hit.Side) == 0.0)
@@ -164,7 +170,7 @@ std::vector<WorkItem> DirectBalance::MakeUp(
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     double scaled = 0.0;
-    double lacked = 0.0;
+    double made = 0.0;
     double all = 0.0;
     for (std::size_t light = 0; light < this->Watched_.size(); ++light)
     {
@@ -178,13 +184,17 @@ std::vector<WorkItem> DirectBalance::MakeUp(
         known += this->PowerOf(item, light).Known[band];
         rest += this->PowerOf(item, light).Scaled[band];
       }
-      const double change = (emitted - known) / rest - 1.0;
-      if (!this->Watches(light) || !(std::abs(change) < MostChange))
+      const double lack = emitted - known - rest;
+      if (!this->Watches(light) || !(rest > 0.0) || !(std::abs(lack) < MostChange * emitted))
       {
         continue;
       }
+      // As errors go with what they are of, most of the lack is the rest's.
+      const double ratio = known / (ErrorRatio * rest);
+      const double change =
+        std::clamp(lack / (rest * (1.0 + ratio * ratio)), -MostChange, MostChange);
       scaled += 1.0;
-      lacked += emitted - known - rest;
+      made += change * rest;
       const Watched& own = this->Watched_[light];
       for (std::size_t cell = 0; cell < this->Cells_; ++cell)
       {
@@ -198,10 +208,10 @@ std::vector<WorkItem> DirectBalance::MakeUp(
     if (scaled > 0.0)
     {
       const std::string name = "band " + std::to_string(band) + ": ";
-      done.push_back({name + "lights scaled to their power", scaled,
+      done.push_back({name + "lights held to their power", scaled,
         "none of their light leaves the scene: smoke and surfaces take up what they send out"});
-      done.push_back({name + "direct light lacked", lacked / all,
-        "share of what lights send out, before they were scaled"});
+      done.push_back({name + "direct light made up for", made / all,
+        "share of what lights send out; negative: too much was taken up"});
     }
   }
   return done;

@@ -20,16 +20,16 @@ class Team;
 /// come from a few points of each and are off in smoke that differs from cell to cell like noise,
 /// and at the edges of shadows: by up to 1 % of the power in all, 2 % of what comes from afar. Each
 /// light by itself is scaled to make up for that, so that the light of several still adds up; but
-/// not where it is known from close to the light.
+/// not where it is known from close to the light, and by the less the more of it is.
 class DirectBalance
 {
 public:
   /// @param blocks of cells, and parts of cells, by whose numbers light is added
   DirectBalance(const Scene& scene, const LightField& field, std::size_t blocks, std::size_t parts);
 
-  /// Whether a light may be scaled: none of it leaves the scene, as rays from it tell (an opening
-  /// through which less than about a thousandth leaves may be missed), and what it adds everywhere
-  /// fits into memory.
+  /// Whether a light may be scaled: it has no measured table, none of it leaves the scene, as rays
+  /// from it tell (an opening through which less than about a thousandth leaves may be missed), and
+  /// what all lights add everywhere fits into memory.
   bool Watches(std::size_t light) const { return !this->Watched_[light].Cells.empty(); }
 
   // What is added of a light that is watched. Items of different numbers may be added to at once.

@@ -113,6 +113,8 @@ private:
     std::optional<Ways> Close{};
     /// Where the light is far: the mean extinction along all ways to it, if that is known [1/m].
     std::optional<double> Extinction{};
+    /// Whether its horizon may cut leaves of a light: else they lie above it.
+    bool Cuts = true;
   };
   /// What the way to a light does to its light.
   struct Path

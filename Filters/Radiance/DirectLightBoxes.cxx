@@ -29,9 +29,11 @@ namespace
 
 /// Slabs that a box which light hardly gets into is cut into, at most.
 constexpr int MostSlabs = 24;
-/// Slabs along an axis from which on light gets in so little, less than a hundredth of the box,
-/// that what comes in through one face does not meet what does through another.
-constexpr int ThinSlabs = 10;
+/// Optical depth along an axis from which on light gets in so little, less than a hundredth of the
+/// box, that what comes in through one face does not meet what does through another.
+constexpr double ThinDepth = 256.0;
+/// The same below which next to none does.
+constexpr double NoDepth = 1e-3;
 /// Share of a light's intensity towards any place in a box that there is towards its centre, where
 /// the centre tells of all: beams end within boxes.
 constexpr double SteadyShare = 0.2;
@@ -40,23 +42,27 @@ constexpr double SteadyShare = 0.2;
 /// which the plate may lean against the box's faces (1.4 mrad).
 constexpr double Upright = 1e-6;
 
-/// Slabs along all axes at once, or one set after the other for axes along which light is lost
-/// right behind the face: what deepens so fast along one is dark where another one tells of it.
-std::vector<std::array<int, 3>> ApartWhereThin(const std::array<int, 3>& slabs)
+/// Slabs along all axes at once, or one set after the other where light is lost right behind each
+/// face that it comes in through: what deepens so fast along one axis is dark where another one
+/// tells of it.
+/// @param depth of the box along each axis
+std::vector<std::array<int, 3>> ApartWhereThin(const std::array<int, 3>& slabs, const Vec3& depth)
 {
   std::vector<std::array<int, 3>> sets;
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (slabs[axis] >= ThinSlabs)
+    if (depth[axis] >= ThinDepth)
     {
-      std::array<int, 3>& set = sets.emplace_back(slabs);
-      for (int other = 0; other < 3; ++other)
-      {
-        set[other] = other != axis && slabs[other] >= ThinSlabs ? 1 : slabs[other];
-      }
+      std::array<int, 3>& set = sets.emplace_back(std::array<int, 3>{1, 1, 1});
+      set[axis] = slabs[axis];
+    }
+    else if (depth[axis] > NoDepth)
+    {
+      // Light that comes in there fills the box.
+      return {slabs};
     }
   }
-  return sets.empty() ? std::vector{slabs} : sets;
+  return sets;
 }
 
 /// Mean of exp(-2 x t) over t in (-1/2, 1/2), over its value at t = -shift / 2.
@@ -339,7 +345,7 @@ Spectrum DirectLight::GradedFluence(
   }
   thread_local std::vector<GaussPlace> places;
   places.clear();
-  for (const std::array<int, 3>& each : ApartWhereThin(slabs))
+  for (const std::array<int, 3>& each : ApartWhereThin(slabs, glm::max(within, entering)))
   {
     AddSlabs(centre, size, from, each, orders, places);
   }

@@ -30,6 +30,8 @@ constexpr int LeafSplits = 12;
 constexpr int SteepLeafSplits = 66;
 constexpr int SplitInFour = 3;
 constexpr double SlenderRatio = 1.517;
+/// The same ratio for what a horizon leaves of a leaf, however sharp its law.
+constexpr double CutLeafRatio = 0.3;
 /// Above this r/d a leaf that a receiver's horizon cuts counts as what is above it.
 constexpr double CutRatio = 0.02;
 /// Optical depth across a leaf below which its transmittance is known however close it is.
@@ -266,9 +268,11 @@ bool DirectLight::AddAboveHorizon(const LightGroup& leaf, const Receiver& receiv
     parts[count] = PartOf(leaf, {above[0], above[i], above[i + 1], last});
     count += parts[count].Area > 0.0 ? 1 : 0;
   }
+  Receiver uncut = receiver;
+  uncut.Cuts = false;
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->Gather(parts[i], receiver, path, splits - 1, sum);
+    this->Gather(parts[i], uncut, path, splits, sum);
   }
   return true;
 }
@@ -287,7 +291,9 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   }
   const double ratio = group.Radius / glm::length(to);
   const double steep = ratio * group.Law.LeafSharpness();
-  if (leaf && splits > 0 && receiver.Normal && ratio > CutRatio &&
+  // What a horizon has cut fades towards it, in a part that may be any quadrilateral.
+  const bool close = steep >= LeafRatio || (!receiver.Cuts && ratio >= CutLeafRatio);
+  if (leaf && receiver.Normal && receiver.Cuts && ratio > CutRatio &&
       std::abs(glm::dot(to, *receiver.Normal)) < group.Radius &&
       this->AddAboveHorizon(group, receiver, path, splits, sum))
   {
@@ -299,7 +305,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
     leaf && receiver.Clear && group.Law == EmissionLaw() &&
     this->ChangeOver(group, receiver) < (receiver.Normal ? EvenReceiverDepth : EvenDepth);
   const bool last = leaf && (splits == 0 || even);
-  if (path == nullptr && (ratio < PathRatio || (leaf && steep < LeafRatio) || last))
+  if (path == nullptr && (ratio < PathRatio || (leaf && !close) || last))
   {
     own = this->SamplePath(group, receiver);
     path = &own;
@@ -312,7 +318,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   {
     this->AddPoint(group, receiver, *path, sum);
   }
-  else if (leaf && (steep < LeafRatio || last))
+  else if (leaf && (!close || last))
   {
     this->AddLeaf(group, receiver, *path, sum);
   }

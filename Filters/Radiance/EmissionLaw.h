@@ -39,6 +39,8 @@ public:
 
   /// Luminous flux of a unit area of unit luminance [lm]: 2 pi / (n + 2), or pi with a table.
   double UnitFlux() const;
+  /// Power of the cosine that the luminance goes with; 0 with a table.
+  double Exponent() const { return this->Exponent_; }
   /// Whether a measured table gives the law.
   bool Measured() const { return this->Table_ != nullptr; }
   /// Whether luminance is the same in all directions.

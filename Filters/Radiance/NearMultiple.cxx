@@ -18,8 +18,10 @@ namespace
 /// looked at: optical depth of scattering across the cell, times the light's share. The veil right
 /// before the light is off by about half of this share of itself otherwise.
 constexpr double LeastShare = 0.1;
+/// Optical depth of scattering across a cell above which light varies too much between the places.
+constexpr double MostDepth = 1.0;
 /// Rays to each place for each batch. All places have the same directions, so that noise hardly
-/// changes their ratios: by 1 %.
+/// changes their ratios: by 2 %.
 constexpr int RaysABatch = 2;
 /// Of the directions, which are the same in all cells: numbers of cells tell nothing of a scene.
 constexpr std::uint64_t DirectionsKey = 1;
@@ -51,7 +53,7 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
       scale * scene.Smoke().Extinction(near.Index) * scene.Smoke().MeanChord(near.Index);
     double close = 0.0;
     bool clear = true;
-    for (std::size_t i = 0; i < near.Lights.size() && depth > LeastShare; ++i)
+    for (std::size_t i = 0; i < near.Lights.size() && depth > LeastShare && depth < MostDepth; ++i)
     {
       if (near.Lights[i].Close)
       {

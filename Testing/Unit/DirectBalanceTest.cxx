@@ -25,7 +25,7 @@ SceneDescription NoisyRoom()
 /// Lights, summed over the bands, that were scaled.
 double Scaled(const Solved& solved)
 {
-  return WorkCount(solved.Field->Report, "lights scaled to their power");
+  return WorkCount(solved.Field->Report, "lights held to their power");
 }
 
 TEST(DirectBalance, ClosedRoomInEachBand)
@@ -36,7 +36,7 @@ TEST(DirectBalance, ClosedRoomInEachBand)
   const Solved solved(scene, 0.3);
   EXPECT_EQ(Scaled(solved), 3.0);
   const double flux = solved.TheScene->Lights().Flux(0);
-  EXPECT_NEAR((solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean) / flux, 1.0, 1e-5);
+  EXPECT_NEAR((solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean) / flux, 1.0, 5e-4);
   EXPECT_NEAR(solved.PowerBeforeBalance() / flux, 1.0, 0.01);
 }
 

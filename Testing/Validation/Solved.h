@@ -64,12 +64,12 @@ public:
     return multiple.Result(direct, static_cast<double>(patches.size()));
   }
 
-  /// Power that smoke and surfaces absorb, but for what direct light was scaled by to make up for
-  /// what it lacks in a closed room [lm]: as quadratures tell it.
+  /// Power that smoke and surfaces absorb, but for what was made up for of direct light in a closed
+  /// room [lm]: as quadratures tell it.
   double PowerBeforeBalance() const
   {
     return this->AbsorbedInSmoke().Mean + this->AbsorbedOnSurfaces().Mean -
-           WorkCount(this->Field->Report, "band 0: direct light lacked") *
+           WorkCount(this->Field->Report, "band 0: direct light made up for") *
              this->TheScene->Lights().Flux(0);
   }
 
