@@ -219,6 +219,7 @@ bool DirectLight::AddStencil(
       return seen == 0;
     }
   }
+  Spectrum own{};
   for (const PlateStencil::Place& place : places)
   {
     const Vec3 to = place.Point - receiver.Point;
@@ -235,9 +236,14 @@ bool DirectLight::AddStencil(
       path ? path->MeanExtinction * distance : this->Depth(receiver, place.Point);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
-      sum[band] +=
+      own[band] +=
         factor * place.Intensity[band] * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
     }
+  }
+  // Some places take light away: where smoke ends between them, more than there is.
+  for (int band = 0; band < this->Scene_.Bands(); ++band)
+  {
+    sum[band] += std::max(0.0, own[band]);
   }
   return true;
 }
