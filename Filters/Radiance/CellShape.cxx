@@ -2,6 +2,7 @@
 
 #include "OpenFaces.h"
 #include "Scene.h"
+#include "SlopeWeights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ CellShape::CellShape(const Scene& scene, const Means& means)
 {
   const OpenFaces& open = scene.Open();
   const Medium& smoke = scene.Smoke();
+  const SlopeWeights weights(scene);
   this->Slopes_.resize(smoke.Cells());
   this->Lower_ = smoke.Lower();
   const auto find = [&](std::int64_t cell, double own)
@@ -26,23 +28,24 @@ CellShape::CellShape(const Scene& scene, const Means& means)
     double offset = 0.0;
     for (int axis = 0; axis < 3; ++axis)
     {
-      std::array<double, 2> value = {own, own};
-      std::array<double, 2> place = {centre[axis], centre[axis]};
-      for (int side = 0; side < 2; ++side)
+      std::array<std::int64_t, 2> beside = {-1, -1};
+      std::array<double, 2> rise{};
+      for (const int side : {0, 1})
       {
         const std::int64_t other = open.Neighbour(cell, axis, side);
         const float there = other < 0 ? 0.0F : means(cell, other);
         if (there > 0.0F)
         {
-          value[side] = there;
-          place[side] = smoke.CellCentre(other)[axis];
+          beside[side] = other;
+          rise[side] = (side == 0 ? -1.0 : 1.0) * std::log(there / own);
         }
       }
-      if (place[1] > place[0])
+      if (beside[0] >= 0 || beside[1] >= 0)
       {
+        const auto factors = weights.Of(cell, axis, beside);
         const double steepest = SteepestChange / size[axis];
         const double slope =
-          std::clamp(std::log(value[1] / value[0]) / (place[1] - place[0]), -steepest, steepest);
+          std::clamp(factors[0] * rise[0] + factors[1] * rise[1], -steepest, steepest);
         this->Slopes_[cell].Slope[axis] = static_cast<float>(slope);
         offset -= static_cast<float>(slope) * (centre[axis] - this->Lower_[axis]);
         logarithm += LogarithmOfMean(0.5 * slope * size[axis]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ExponentialMean.h"
+#include "SmokePiece.h"
 #include "Types.h"
 
 #include <cmath>
@@ -12,17 +13,6 @@ namespace smokevis
 {
 
 class Scene;
-
-/// A piece of a ray inside one cell.
-struct SmokePiece
-{
-  std::int64_t Cell;
-  /// Where it begins, the way from there to its end, and where a source that varies linearly along
-  /// it takes its mean.
-  Vec3 Begin, Step, Middle;
-  /// Optical depth, and the share of the light from behind that is lost.
-  double Depth, Lost;
-};
 
 /// Light falls off exponentially in smoke, so that the logarithm of a field is taken to vary
 /// linearly between the centres of neighbouring cells. The mean over a cell stays what it is.
@@ -62,19 +52,6 @@ public:
 
   /// What a field of mean 1 in the cell, as a source, sends out of a piece of a ray at its
   /// beginning; one of 1 everywhere sends 1 - exp(-depth).
-  /// @param step from the beginning of the piece to its end
-  /// @param depth of the piece
-  double Emerging(std::int64_t cell, const Vec3& begin, const Vec3& step, double depth) const
-  {
-    double fall = depth;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      fall -= this->LogarithmSlope(cell, axis) * step[axis];
-    }
-    return depth * this->Value(cell, begin) * MeanOfExponential(fall);
-  }
-
-  /// The same, cheaper where little changes along the piece.
   double Emerging(const SmokePiece& piece) const
   {
     double rise = 0.0;
@@ -82,11 +59,13 @@ public:
     {
       rise += this->LogarithmSlope(piece.Cell, axis) * piece.Step[axis];
     }
-    // The second moment around the mean place; of higher ones 1e-4 is left.
+    // Cheaper where little changes along the piece, by the second moment around the mean place; of
+    // higher ones 1e-4 is left.
     constexpr double Small = 0.5;
     return std::abs(rise) < Small && piece.Depth < Small
              ? piece.Lost * this->Value(piece.Cell, piece.Middle) * (1.0 + rise * rise / 24.0)
-             : this->Emerging(piece.Cell, piece.Begin, piece.Step, piece.Depth);
+             : piece.Depth * this->Value(piece.Cell, piece.Begin) *
+                 MeanOfExponential(piece.Depth - rise);
   }
 
   /// Slope of the logarithm along an axis in a cell [1/m].

@@ -27,14 +27,6 @@ constexpr double MostChange = 0.04;
 /// taken to be.
 constexpr double ErrorRatio = 6.0;
 
-void Add(Spectrum& sum, const Spectrum& value)
-{
-  for (std::size_t band = 0; band < sum.size(); ++band)
-  {
-    sum[band] += value[band];
-  }
-}
-
 } // namespace
 
 DirectBalance::DirectBalance(
@@ -111,10 +103,10 @@ void DirectBalance::AddToCell(
   const int place = near.Place(cell);
   if (place >= 0 && near.Find(place, light) >= 0)
   {
-    Add(power.Known, this->TakenIn(cell, fluence));
+    Accumulate(power.Known, this->TakenIn(cell, fluence));
     return;
   }
-  Add(power.Scaled, this->TakenIn(cell, fluence));
+  Accumulate(power.Scaled, this->TakenIn(cell, fluence));
   for (int band = 0; band < this->Scene_.Bands(); ++band)
   {
     this->Watched_[light].Cells[band * this->Cells_ + cell] = static_cast<float>(fluence[band]);
@@ -124,7 +116,7 @@ void DirectBalance::AddToCell(
 void DirectBalance::AddToPart(
   std::size_t part, std::size_t light, std::int64_t cell, const Spectrum& fluence)
 {
-  Add(this->PowerOf(this->Blocks_ + part, light).Known, this->TakenIn(cell, fluence));
+  Accumulate(this->PowerOf(this->Blocks_ + part, light).Known, this->TakenIn(cell, fluence));
 }
 
 void DirectBalance::AddToPatch(

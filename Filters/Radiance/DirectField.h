@@ -32,12 +32,6 @@ public:
                                       : 0.0;
   }
   /// What a piece of a ray sends out at its beginning of that fluence (CellShape::Emerging) [lx].
-  double SmoothEmerging(
-    std::int64_t cell, const Vec3& begin, const Vec3& step, double depth, int band) const
-  {
-    const double mean = this->Means_[band * this->Cells_ + cell];
-    return mean > 0.0 ? mean * this->Shapes_[band].Emerging(cell, begin, step, depth) : 0.0;
-  }
   double SmoothEmerging(const SmokePiece& piece, int band) const
   {
     const double mean = this->Means_[band * this->Cells_ + piece.Cell];

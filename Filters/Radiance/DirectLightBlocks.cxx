@@ -52,14 +52,6 @@ Medium::Block BlockOf(const Medium::Block& block, const std::vector<bool>& asked
   return part;
 }
 
-void Add(Spectrum& sum, double share, const Spectrum& value)
-{
-  for (std::size_t band = 0; band < sum.size(); ++band)
-  {
-    sum[band] += share * value[band];
-  }
-}
-
 /// What is said of each cell of a block, of the cells of one that it holds.
 std::vector<bool> PartOf(
   const Medium::Block& block, const std::vector<bool>& cells, const Medium::Block& part)
@@ -248,7 +240,7 @@ void DirectLight::AddKept(
       if (const auto kept =
             smoke.Parts().Find(cell) ? std::nullopt : this->KeptFluence(light, cell))
       {
-        Add(sums[cell], 1.0, *kept);
+        Accumulate(sums[cell], *kept);
       }
     });
 }
@@ -277,8 +269,8 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       if (asked[number])
       {
         const std::int64_t cell = smoke.Cell(block, place);
-        Add(sums[cell], shown[number],
-          this->CellFluence({light, cell, deepening[number], far, weak}));
+        Accumulate(sums[cell], this->CellFluence({light, cell, deepening[number], far, weak}),
+          shown[number]);
       }
     });
 }

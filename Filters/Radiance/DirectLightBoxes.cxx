@@ -165,11 +165,14 @@ Spectrum DirectLight::BoxFluence(
   const Vec3 from = centre - root.Centre;
   const double toCentre = glm::length(from);
   const double distance = root.Distance(centre);
-  const double edge = LargestEdge(size) * root.Law.Sharpness();
   if (Behind(root, centre, size))
   {
     return {};
   }
+  const double highest = glm::dot(from, root.Normal) + 0.5 * glm::dot(glm::abs(root.Normal), size);
+  const double coarseness =
+    root.Law.Coarseness(highest + root.Depth, distance - 0.5 * glm::length(size));
+  const double edge = LargestEdge(size) * root.Law.Sharpness() / coarseness;
   if (splits > 0 && edge > BoxRatio * distance)
   {
     Spectrum sum{};

@@ -295,10 +295,18 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   {
     return;
   }
-  const double ratio = group.Radius / glm::length(to);
+  const double distance = glm::length(to);
+  const double ratio = group.Radius / distance;
   const double steep = ratio * group.Law.LeafSharpness();
   // What a horizon has cut fades towards it, in a part that may be any quadrilateral.
-  const bool close = steep >= LeafRatio || (!receiver.Cuts && ratio >= CutLeafRatio);
+  bool close = steep >= LeafRatio || (!receiver.Cuts && ratio >= CutLeafRatio);
+  bool faint = false;
+  if (leaf && close)
+  {
+    const double coarseness = group.Law.Coarseness(height, distance - group.Radius);
+    faint = std::isinf(coarseness);
+    close = coarseness == 1.0 || steep >= coarseness * LeafRatio;
+  }
   if (leaf && receiver.Normal && receiver.Cuts && ratio > CutRatio &&
       std::abs(glm::dot(to, *receiver.Normal)) < group.Radius &&
       this->AddAboveHorizon(group, receiver, path, splits, sum))
@@ -310,7 +318,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   const bool even =
     leaf && receiver.Clear && group.Law == EmissionLaw() &&
     this->ChangeOver(group, receiver) < (receiver.Normal ? EvenReceiverDepth : EvenDepth);
-  const bool last = leaf && (splits == 0 || even);
+  const bool last = leaf && (splits == 0 || even || faint);
   if (path == nullptr && (ratio < PathRatio || (leaf && !close) || last))
   {
     own = this->SamplePath(group, receiver);
@@ -320,7 +328,7 @@ void DirectLight::Gather(const LightGroup& group, const Receiver& receiver, cons
   {
     return;
   }
-  if (steep < (leaf ? LeafPointRatio : PointRatio))
+  if (faint || steep < (leaf ? LeafPointRatio : PointRatio))
   {
     this->AddPoint(group, receiver, *path, sum);
   }

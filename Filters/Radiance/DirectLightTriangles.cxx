@@ -104,7 +104,9 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
   {
     return;
   }
-  const double size = ReachOf(corners) * root.Law.Sharpness();
+  const double reach = ReachOf(corners);
+  const double coarseness = root.Law.Coarseness(highest + root.Depth, distance - reach);
+  const double size = reach * root.Law.Sharpness() / coarseness;
   const auto splitAll = [&]
   {
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),

@@ -3,6 +3,7 @@
 #include "Errors.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <glm/gtc/constants.hpp>
 
@@ -16,6 +17,11 @@ namespace
 /// each place.
 constexpr double MostSharpness = 4.0;
 constexpr double MostLeafSharpness = 12.0;
+/// Shares of what a plate as bright in all directions would send. Where less than the first is
+/// left, parts may be so many times as large; less than the second, as large as they are.
+constexpr double DimShare = 0.01;
+constexpr double DimCoarseness = 2.0;
+constexpr double FaintShare = 1e-8;
 
 } // namespace
 
@@ -45,6 +51,20 @@ double EmissionLaw::Sharpness() const
 double EmissionLaw::LeafSharpness() const
 {
   return this->SharpnessUpTo(MostLeafSharpness);
+}
+
+double EmissionLaw::Coarseness(double height, double distance) const
+{
+  if (!(this->Exponent_ > 0.0) || height >= distance)
+  {
+    return 1.0;
+  }
+  const double share = std::pow(std::max(0.0, height) / distance, this->Exponent_);
+  if (share < FaintShare)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  return share < DimShare ? DimCoarseness : 1.0;
 }
 
 double EmissionLaw::SharpnessUpTo(double most) const

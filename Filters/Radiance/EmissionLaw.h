@@ -49,6 +49,11 @@ public:
   double Sharpness() const;
   /// The same, no more than leaves of a light are cut for, which costs less.
   double LeafSharpness() const;
+  /// How many times as large as elsewhere parts of a light, and of what it shines on, may be where
+  /// its law leaves little: 1 or more. Infinite: what it sends there does not matter.
+  /// @param height over the light's plane of all that it shines on, at most
+  /// @param distance of all that from the light, at least; negative where they may touch
+  double Coarseness(double height, double distance) const;
   /// Whether the light of two plates with one normal can be added up.
   bool operator==(const EmissionLaw& other) const
   {

@@ -42,16 +42,14 @@ double IndirectLight::Radiance(
     double begin = segment.Begin;
     const auto add = [&](double length, double direct)
     {
-      const double own = extinction * length;
-      const double lost = -std::expm1(-own);
-      const Vec3 from = origin + begin * direction;
-      const Vec3 step = length * direction;
+      const SmokePiece piece(
+        cell, origin + begin * direction, length * direction, extinction * length);
       const double fluence =
-        (smooth ? this->Direct_.SmoothEmerging(cell, from, step, own, this->Band_)
-                : lost * direct) +
-        multiple * (flat ? lost : this->Shape_.Emerging(cell, from, step, own));
-      sum += std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * fluence + lost * emitted);
-      depth += own;
+        (smooth ? this->Direct_.SmoothEmerging(piece, this->Band_) : piece.Lost * direct) +
+        multiple * (flat ? piece.Lost : this->Shape_.Emerging(piece));
+      sum +=
+        std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * fluence + piece.Lost * emitted);
+      depth += piece.Depth;
       begin += length;
     };
     if (varies)

@@ -161,8 +161,12 @@ void MultipleSolve::Gather(
           std::to_string(plates) + " plates reflect light that lines would rarely bring");
       }
     });
+  if (plates == 0)
+  {
+    return;
+  }
   const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
-  if (plates > 0 && PowerBalance::Closed(powers))
+  if (PowerBalance::Closed(powers))
   {
     DoubleLanes more = balance.TakenBySurfaces(this->Field_, band);
     std::transform(more.begin(), more.end(), before.begin(), more.begin(), std::minus<>());

@@ -2,8 +2,8 @@
 
 #include "ExponentialMean.h"
 #include "Scene.h"
+#include "SlopeWeights.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -14,9 +14,9 @@ namespace smokevis
 namespace
 {
 
-/// Ratio of the means of cells so many places apart above which their slope is cut off.
-const std::array<double, 3> SteepestRatio = {
-  1.0, std::exp(CellShape::SteepestChange), std::exp(2.0 * CellShape::SteepestChange)};
+/// Change of the logarithm of a field across a cell above which its slope is cut off, but for
+/// rounding.
+constexpr double SteepestChange = (1.0 - 1e-6) * CellShape::SteepestChange;
 
 } // namespace
 
@@ -31,6 +31,7 @@ ShapeNoise::ShapeNoise(
       const float inverse = 1.0F / means[cell];
       this->InverseMeans_[cell] = means[cell] > 0.0F && std::isfinite(inverse) ? inverse : 0.0F;
     });
+  const SlopeWeights weights(scene);
   tbb::parallel_for(std::size_t{0}, means.size(),
     [&](std::size_t cell)
     {
@@ -38,31 +39,35 @@ ShapeNoise::ShapeNoise(
       if (this->InverseMeans_[cell] > 0.0F &&
           scene.Smoke().Extinction(static_cast<std::int64_t>(cell)) > 0.0F)
       {
-        this->Responses_[cell] = this->Find(scene, static_cast<std::int64_t>(cell), means, shape);
+        this->Responses_[cell] =
+          this->Find(scene, static_cast<std::int64_t>(cell), weights, means[cell], shape);
       }
     });
 }
 
 ShapeNoise::Response ShapeNoise::Find(const Scene& scene, std::int64_t cell,
-  const std::vector<float>& means, const CellShape& shape) const
+  const SlopeWeights& weights, float mean, const CellShape& shape) const
 {
   const Vec3 centre = scene.Smoke().CellCentre(cell);
   const Vec3 size = scene.Smoke().CellSize(cell);
   Response response;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto ends = this->Ends(cell, axis);
-    // In edges of the cell, as if its neighbours were as large.
-    const int apart = (ends[0] != cell ? 1 : 0) + (ends[1] != cell ? 1 : 0);
-    // Slopes that are cut off do not follow noise.
-    const auto [least, most] = std::minmax(means[ends[0]], means[ends[1]]);
-    if (apart > 0 && most < SteepestRatio[apart] * least)
+    std::array<std::int64_t, 2> beside = {-1, -1};
+    for (const int side : {0, 1})
     {
-      response.Slope[axis] = static_cast<float>(means[cell] / (apart * size[axis]));
+      const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
+      beside[side] = other >= 0 && this->InverseMeans_[other] > 0.0F ? other : -1;
+    }
+    const double change = shape.LogarithmSlope(cell, axis) * size[axis];
+    if (std::abs(change) < SteepestChange)
+    {
+      const auto factors = weights.Of(cell, axis, beside);
+      response.Rise[axis] = {
+        static_cast<float>(-mean * factors[0]), static_cast<float>(mean * factors[1])};
       // The mean over the cell stays what it is, whatever the slope.
-      const double half = 0.5 * size[axis] * shape.LogarithmSlope(cell, axis);
-      const double still = centre[axis] - this->Lower_[axis] + 0.5 * size[axis] * Langevin(half);
-      response.Offset[axis] = static_cast<float>(-response.Slope[axis] * still);
+      response.Still[axis] = static_cast<float>(
+        centre[axis] - this->Lower_[axis] + 0.5 * size[axis] * Langevin(0.5 * change));
     }
   }
   return response;

@@ -13,6 +13,7 @@ namespace smokevis
 {
 
 class Scene;
+class SlopeWeights;
 
 /// The shape of a cell comes from the means of its neighbours, noise and all. The mean over the
 /// batches stays what it is if each has slopes of its own, to first order, and their spread then
@@ -36,46 +37,39 @@ public:
   {
     const Response& own = this->Responses_[cell];
     const Vec3 from = point - this->Lower_;
+    float itself = 0.0F;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto share =
-        static_cast<float>(weight * (own.Slope[axis] * from[axis] + own.Offset[axis]));
-      if (share != 0.0F)
+      const auto away = static_cast<float>(weight * (from[axis] - own.Still[axis]));
+      for (const int side : {0, 1})
       {
-        const auto [low, high] = this->Ends(cell, axis);
-        smokevis::Add(sum, this->Lanes_[high], share * this->InverseMeans_[high]);
-        smokevis::Add(sum, this->Lanes_[low], -share * this->InverseMeans_[low]);
+        const float share = away * own.Rise[axis][side];
+        if (share != 0.0F)
+        {
+          const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
+          smokevis::Add(sum, this->Lanes_[other], share * this->InverseMeans_[other]);
+          itself += share;
+        }
       }
+    }
+    if (itself != 0.0F)
+    {
+      smokevis::Add(sum, this->Lanes_[cell], -itself * this->InverseMeans_[cell]);
     }
   }
 
 private:
-  /// How the field in a cell follows the relative noise of the neighbours along each axis: nothing
-  /// where their slope is cut off.
+  /// How the field in a cell follows the relative noise of the neighbours along each axis.
   struct Response
   {
-    /// A metre [lx/m].
-    std::array<float, 3> Slope{};
-    /// Continued to the smoke's lower corner [lx].
-    std::array<float, 3> Offset{};
+    /// For that on the low and the high side; 0 where there is none with light, and where the slope
+    /// is cut off: it does not follow noise [lx/m].
+    std::array<std::array<float, 2>, 3> Rise{};
+    /// Where it has no effect, from the smoke's lower corner [m].
+    std::array<float, 3> Still{};
   };
 
-  /// Cells whose means tell the slope of a cell: its neighbours on the low and high side, or itself
-  /// where there is none with light.
-  std::array<std::int64_t, 2> Ends(std::int64_t cell, int axis) const
-  {
-    std::array<std::int64_t, 2> ends = {cell, cell};
-    for (const int side : {0, 1})
-    {
-      const std::int64_t other = this->Open_->Neighbour(cell, axis, side);
-      if (other >= 0 && this->InverseMeans_[other] > 0.0F)
-      {
-        ends[side] = other;
-      }
-    }
-    return ends;
-  }
-  Response Find(const Scene& scene, std::int64_t cell, const std::vector<float>& means,
+  Response Find(const Scene& scene, std::int64_t cell, const SlopeWeights& weights, float mean,
     const CellShape& shape) const;
 
   const OpenFaces* Open_ = nullptr;

@@ -4,6 +4,7 @@
 #include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
+#include "SlopeWeights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       shaped.push_back(cell);
     }
   }
+  const SlopeWeights weights(scene);
   ReserveInLargePages(shaped.size(), this->Cells_);
   this->Cells_.resize(shaped.size());
   ReserveInLargePages(shaped.size(), this->Measures_);
@@ -57,14 +59,14 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
         Measures& own = this->Measures_[i];
         for (int axis = 0; axis < 3; ++axis)
         {
-          std::array<double, 2> centre;
-          for (int side = 0; side < 2; ++side)
+          std::array<std::int64_t, 2> beside{};
+          for (const int side : {0, 1})
           {
             const std::int64_t other = this->Beside(cell, axis, side);
-            centre[side] = smoke.CellCentre(other)[axis];
+            beside[side] = other == cell ? -1 : other;
           }
-          const double distance = centre[1] - centre[0];
-          own.Inverse[axis] = distance > 0.0 ? static_cast<float>(1.0 / distance) : 0.0F;
+          const auto factors = weights.Of(cell, axis, beside);
+          std::copy(factors.begin(), factors.end(), own.Factors[axis].begin());
           own.Half[axis] = static_cast<float>(half[axis]);
         }
       }
@@ -106,20 +108,20 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
         const Measures& own = this->Measures_[i];
         const std::int64_t cell = this->Cells_[i].Index;
         const bool varies = this->Cells_[i].DirectVaries;
-        const auto value = [&](int axis, int side)
-        {
-          const std::int64_t there = this->Beside(cell, axis, side);
-          return means[there] + (varies ? 0.0F : this->DirectFluence_[there]);
-        };
+        const auto value = [&](std::int64_t there)
+        { return means[there] + (varies ? 0.0F : this->DirectFluence_[there]); };
+        const float here = value(cell);
         Slope slope{};
         float change = 0.0F;
         for (int axis = 0; axis < 3; ++axis)
         {
-          const float low = value(axis, 0);
-          const float high = value(axis, 1);
+          const float low = value(this->Beside(cell, axis, 0));
+          const float high = value(this->Beside(cell, axis, 1));
           // Light falls off exponentially.
-          slope[axis] =
-            low > 0.0F && high > 0.0F ? (std::log(high) - std::log(low)) * own.Inverse[axis] : 0.0F;
+          slope[axis] = low > 0.0F && here > 0.0F && high > 0.0F
+                          ? std::log(here / low) * own.Factors[axis][0] +
+                              std::log(high / here) * own.Factors[axis][1]
+                          : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];
         }
         // Nowhere below 0.

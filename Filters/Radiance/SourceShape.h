@@ -67,8 +67,9 @@ private:
   /// What the slopes of a cell are told by.
   struct Measures
   {
-    /// 1 / distance between the centres of Beside() on both sides along each axis, or 0 [1/m].
-    std::array<float, 3> Inverse;
+    /// Along each axis, of the rises between Beside() on the low side, the cell, and Beside() on
+    /// the high side (SlopeWeights) [1/m].
+    std::array<std::array<float, 2>, 3> Factors;
     /// Half the cell's edges [m].
     std::array<float, 3> Half;
   };

@@ -19,6 +19,15 @@ inline constexpr int MaxBands = 3;
 /// One value a band.
 using Spectrum = std::array<double, MaxBands>;
 
+/// Adds a share of one spectrum to another.
+inline void Accumulate(Spectrum& sum, const Spectrum& value, double share = 1.0)
+{
+  for (std::size_t band = 0; band < sum.size(); ++band)
+  {
+    sum[band] += share * value[band];
+  }
+}
+
 /// Independent batches of the light-field estimate. Sixteen fill one 512-bit register of floats,
 /// and sixteen batches give a standard error that is itself good to 18 %.
 inline constexpr int Batches = 16;

@@ -146,18 +146,10 @@ RayLight View::TraceVeil(
     const double depth = extinction * length;
     if (depth > 0.0 && light.OpticalDepth < DeepestVeil)
     {
-      // Both shares to their last digits, where one is small too.
-      const bool thin = depth < 0.1;
-      const double smaller = thin ? -std::expm1(-depth) : std::exp(-depth);
-      const double lost = thin ? smaller : 1.0 - smaller;
-      const double passed = thin ? 1.0 - smaller : smaller;
+      const SmokePiece piece(
+        segment.Cell, origin + segment.Begin * direction, length * direction, depth);
       if (albedo > 0.0)
       {
-        const double mean = depth < 1e-4 ? 0.5 * length * (1.0 - depth / 6.0)
-                                         : 1.0 / extinction - length * passed / lost;
-        const Vec3 from = origin + segment.Begin * direction;
-        const SmokePiece piece{
-          segment.Cell, from, length * direction, from + mean * direction, depth, lost};
         const double weight = scatter * ahead;
         light.VeilDirect += weight * self.DirectFluence.SmoothEmerging(piece, band);
         self.AddMultiple(piece, band, weight, light.VeilMultiple);
@@ -167,8 +159,9 @@ RayLight View::TraceVeil(
                                         segment.Begin, segment.End, extinction, band);
         }
       }
-      light.VeilDirect += (1.0 - albedo) * ahead * lost * smoke.EmittedLuminance(segment.Cell);
-      ahead *= passed;
+      light.VeilDirect +=
+        (1.0 - albedo) * ahead * piece.Lost * smoke.EmittedLuminance(segment.Cell);
+      ahead *= piece.Passed;
     }
     light.OpticalDepth += depth;
   }
