@@ -367,6 +367,19 @@ std::int64_t Medium::LeaptCells() const
     [](std::int64_t sum, const Grid& grid) { return sum + (grid.Leaps ? grid.Clear.Cells() : 0); });
 }
 
+bool Medium::FacesAt(int axis, double coordinate) const
+{
+  return std::any_of(this->Grids_.begin(), this->Grids_.end(),
+    [&](const Grid& grid)
+    {
+      const std::vector<double>& nodes = grid.Nodes[axis];
+      const auto above = std::lower_bound(nodes.begin() + 1, nodes.end() - 1, coordinate);
+      const auto below = above - 1;
+      return std::min(std::abs(*above - coordinate), std::abs(*below - coordinate)) <
+             1e-6 * (*above - *below);
+    });
+}
+
 std::int64_t Medium::Locate(const Vec3& point) const
 {
   const std::int64_t cell = this->LocateInGrids(point);

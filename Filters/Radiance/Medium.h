@@ -95,6 +95,9 @@ public:
   }
   /// The cell that holds a point, or -1 outside all smoke.
   std::int64_t Locate(const Vec3& point) const;
+  /// Whether faces of cells across an axis lie in the plane through a coordinate, but for a
+  /// millionth of an edge.
+  bool FacesAt(int axis, double coordinate) const;
   /// The cell across the face of `cell` along `axis` (0..2), on the low (0) or high (1) side; it
   /// may lie in another grid; -1 where there is none.
   std::int64_t Neighbour(std::int64_t cell, int axis, int side) const;

@@ -30,6 +30,10 @@ constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
 /// Optical depth, beyond that to the clearest place, from which on nothing is seen beside that.
 constexpr double DeepestBlock = 20.0;
+/// A plane along an edge rises by no more than this share of it across the plate; and the least
+/// width of a block, as a share of the plate's, on either side of such a plane.
+constexpr double LevelShare = 1e-6;
+constexpr double NarrowestBlock = 1e-6;
 /// Where along the other edge the depth is looked at.
 constexpr std::array<double, 2> Lines = {0.25, 0.75};
 /// Where a plate spans more pixels than this along an edge all of its detail counts as resolved.
@@ -142,8 +146,33 @@ PlateBorders SignSight::Borders(double blocks) const
   const double width = glm::length(this->EdgeU_);
   const double height = glm::length(this->EdgeV_);
   const double largest = std::max(width, height) / blocks;
-  return {this->CutBySmoke(BlockBorders(this->Across_, largest / width), 0),
-    this->CutBySmoke(BlockBorders(this->Up_, largest / height), 1)};
+  const auto bordersAlong = [&](const PlateColumns& columns, double part, int axis)
+  { return this->CutBySmoke(this->CutByFaces(BlockBorders(columns, part), axis), axis); };
+  return {
+    bordersAlong(this->Across_, largest / width, 0), bordersAlong(this->Up_, largest / height, 1)};
+}
+
+std::vector<double> SignSight::CutByFaces(std::vector<double> borders, int axis) const
+{
+  const Vec3& along = axis == 0 ? this->EdgeU_ : this->EdgeV_;
+  const Vec3& other = axis == 0 ? this->EdgeV_ : this->EdgeU_;
+  for (int normal = 0; normal < 3; ++normal)
+  {
+    if (std::abs(other[normal]) > LevelShare * glm::length(other) ||
+        std::abs(along[normal]) <= LevelShare * glm::length(along) ||
+        !this->View_.TheScene().Smoke().FacesAt(normal, this->Eye_[normal]))
+    {
+      continue;
+    }
+    const double place = (this->Eye_[normal] - this->Plate_.Corners[0][normal]) / along[normal];
+    const auto next = std::lower_bound(borders.begin(), borders.end(), place);
+    if (next != borders.begin() && next != borders.end() &&
+        std::min(*next - place, place - *(next - 1)) > NarrowestBlock)
+    {
+      borders.insert(next, place);
+    }
+  }
+  return borders;
 }
 
 std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, int axis) const

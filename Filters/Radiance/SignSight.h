@@ -65,7 +65,10 @@ public:
 
 private:
   PlateBorders Borders(double blocks) const;
-  /// Borders along an edge (0: across, 1: up), and more where the smoke before the plate dims it
+  /// Adds borders along an edge (0: across, 1: up) where planes of cell faces through the eye meet
+  /// the plate along the other edge: smoke may differ on both sides of them along the whole way.
+  std::vector<double> CutByFaces(std::vector<double> borders, int axis) const;
+  /// Borders along an edge, and more where the smoke before the plate dims it
   /// more at one border than at the next.
   std::vector<double> CutBySmoke(const std::vector<double>& borders, int axis) const;
   std::array<int, 2> Pixels(double acuity) const;
