@@ -20,7 +20,7 @@ namespace
 
 /// A light whose area is a larger share of the surface of the box around the scene is left to the
 /// random lines: one line in fifty meets it.
-constexpr double LargeLight = 0.02;
+constexpr double LargeLight = 0.05;
 
 void CheckDescription(const SceneDescription& description)
 {
