@@ -11,9 +11,18 @@
 namespace smokevis
 {
 
+namespace
+{
+
+/// Closer than so many edges of a patch to where a ray begins, and to a light, what the light sends
+/// to the end of the ray is not what it sends to the patch in the mean.
+constexpr double CloseSizes = 4.0;
+
+} // namespace
+
 IndirectLight::IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
   const CellShape& shape, int band)
-    : Scene_(scene), Field_(field), Direct_(direct), Shape_(shape), Band_(band)
+    : Scene_(scene), Field_(field), Direct_(direct), Shape_(shape), Lights_(scene), Band_(band)
 {
 }
 
@@ -68,16 +77,47 @@ double IndirectLight::Radiance(
     }
   }
   return sum + std::exp(-depth) *
-                 (hit.Found() ? this->Leaving(hit, direction, batch) : this->Scene_.Sky());
+                 (hit.Found()
+                     ? this->Leaving(hit, origin + hit.Distance * direction, direction, batch)
+                     : this->Scene_.Sky());
 }
 
-double IndirectLight::Leaving(const Hit& hit, const Vec3& direction, int batch) const
+double IndirectLight::DirectOn(std::size_t patch, const Hit& hit, const Vec3& point) const
+{
+  const double size = std::sqrt(this->Scene_.PatchArea(patch));
+  const EmitterSet& lights = this->Scene_.Lights();
+  const std::size_t count = lights.Lights().size();
+  bool near = false;
+  for (std::size_t light = 0;
+       light < count && !near && !hit.Emitter && hit.Distance < CloseSizes * size; ++light)
+  {
+    const LightGroup& root = lights.Root(light);
+    near = root.Distance(point) < CloseSizes * size * root.Law.Sharpness();
+  }
+  if (!near)
+  {
+    return this->Field_.DirectIlluminance[this->Field_.PatchIndex(this->Band_, patch, hit.Side)];
+  }
+  const Vec3& normal = this->Scene_.Shapes().Normal(hit);
+  double sum = 0.0;
+  for (std::size_t light = 0; light < count; ++light)
+  {
+    sum += this->Lights_.Illuminance(light, point, hit.Side == 0 ? normal : -normal)[this->Band_];
+  }
+  return sum;
+}
+
+double IndirectLight::Leaving(
+  const Hit& hit, const Vec3& point, const Vec3& direction, int batch) const
 {
   const std::size_t patch = this->Scene_.Patch(hit);
   const std::size_t side = this->Field_.PatchIndex(this->Band_, patch, hit.Side);
+  const double reflectance = this->Scene_.PatchReflectance(patch)[this->Band_];
   double radiance =
-    this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>() *
-    (this->Field_.DirectIlluminance[side] + this->Field_.MultipleIlluminance[side][batch]);
+    reflectance > 0.0
+      ? reflectance / glm::pi<double>() *
+          (this->DirectOn(patch, hit, point) + this->Field_.MultipleIlluminance[side][batch])
+      : 0.0;
   const EmitterSet& lights = this->Scene_.Lights();
   const std::size_t cell = patch - this->Scene_.SurfacePatches();
   if (hit.Emitter && hit.Side == 0 && lights.LeftToLines(cell))

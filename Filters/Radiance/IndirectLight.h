@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CellShape.h"
+#include "DirectLight.h"
 #include "LightField.h"
 #include "Scene.h"
 
@@ -30,12 +31,15 @@ public:
   double Radiance(const Vec3& origin, const Vec3& direction, double place, int batch) const;
 
 private:
-  double Leaving(const Hit& hit, const Vec3& direction, int batch) const;
+  double Leaving(const Hit& hit, const Vec3& point, const Vec3& direction, int batch) const;
+  /// Direct illuminance where a ray ends on a patch [lx].
+  double DirectOn(std::size_t patch, const Hit& hit, const Vec3& point) const;
 
   const Scene& Scene_;
   const LightField& Field_;
   const DirectField& Direct_;
   const CellShape& Shape_;
+  DirectLight Lights_;
   int Band_;
 };
 
