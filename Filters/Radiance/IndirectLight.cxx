@@ -21,8 +21,9 @@ constexpr double CloseSizes = 4.0;
 } // namespace
 
 IndirectLight::IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
-  const CellShape& shape, int band)
-    : Scene_(scene), Field_(field), Direct_(direct), Shape_(shape), Lights_(scene), Band_(band)
+  const CellShape& shape, int band, Reflection reflection)
+    : Scene_(scene), Field_(field), Direct_(direct), Shape_(shape), Lights_(scene), Band_(band),
+      Reflection_(reflection)
 {
 }
 
@@ -84,15 +85,17 @@ double IndirectLight::Radiance(
 
 double IndirectLight::DirectOn(std::size_t patch, const Hit& hit, const Vec3& point) const
 {
-  const double size = std::sqrt(this->Scene_.PatchArea(patch));
+  const double close = CloseSizes * std::sqrt(this->Scene_.PatchArea(patch));
   const EmitterSet& lights = this->Scene_.Lights();
   const std::size_t count = lights.Lights().size();
   bool near = false;
-  for (std::size_t light = 0;
-       light < count && !near && !hit.Emitter && hit.Distance < CloseSizes * size; ++light)
+  if (this->Reflection_ == Reflection::OfPlaces && !hit.Emitter && hit.Distance < close)
   {
-    const LightGroup& root = lights.Root(light);
-    near = root.Distance(point) < CloseSizes * size * root.Law.Sharpness();
+    for (std::size_t light = 0; light < count && !near; ++light)
+    {
+      const LightGroup& root = lights.Root(light);
+      near = root.Distance(point) < close * root.Law.Sharpness();
+    }
   }
   if (!near)
   {

@@ -16,11 +16,19 @@ class DirectField;
 class IndirectLight
 {
 public:
+  /// How surfaces send on what lights send to them.
+  enum class Reflection
+  {
+    /// By what their patches get in the mean.
+    OfPatches,
+    /// Close to where rays begin, and to a light, by what there is where a ray ends.
+    OfPlaces
+  };
   /// @param field holds all light of the band
   /// @param direct is the direct light in the smoke
   /// @param shape is that of the rest; all must outlive this
   IndirectLight(const Scene& scene, const LightField& field, const DirectField& direct,
-    const CellShape& shape, int band);
+    const CellShape& shape, int band, Reflection reflection);
 
   const Scene& TheScene() const { return this->Scene_; }
   const LightField& Field() const { return this->Field_; }
@@ -41,6 +49,7 @@ private:
   const CellShape& Shape_;
   DirectLight Lights_;
   int Band_;
+  Reflection Reflection_;
 };
 
 } // namespace smokevis

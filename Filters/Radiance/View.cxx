@@ -57,8 +57,8 @@ struct View::Implementation
       this->MultipleShape[band] = ShapeOfMultiple(scene, means);
       this->MultipleNoise[band] = ShapeNoise(scene,
         field.MultipleFluence.data() + field.CellIndex(band, 0), means, this->MultipleShape[band]);
-      this->Indirect[band] = std::make_unique<IndirectLight>(
-        scene, field, this->DirectFluence, this->MultipleShape[band], band);
+      this->Indirect[band] = std::make_unique<IndirectLight>(scene, field, this->DirectFluence,
+        this->MultipleShape[band], band, IndirectLight::Reflection::OfPatches);
       this->MultipleNear[band] = std::make_unique<NearMultiple>(*this->Indirect[band]);
     }
     this->FindLeak();

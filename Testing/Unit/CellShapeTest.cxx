@@ -1,7 +1,8 @@
-// How a field varies inside cells, and the noise that this has of the neighbours.
+// How a field varies inside cells, by which neighbours, and the noise that this has of them.
 #include "CellShape.h"
 #include "Scene.h"
 #include "ShapeNoise.h"
+#include "SlopeWeights.h"
 #include "View.h"
 
 #include <cmath>
@@ -15,13 +16,13 @@ namespace
 using namespace smokevis;
 
 /// Three cells in a row along x.
-Scene Row()
+Scene Row(const std::vector<float>& extinction = {1.0F, 1.0F, 1.0F})
 {
   SceneDescription description;
   SmokeGrid grid;
   grid.Name = "row";
   grid.Nodes = {{{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0}, {0.0, 1.0}}};
-  grid.Extinction.assign(3, 1.0F);
+  grid.Extinction = extinction;
   description.Albedo = 0.5;
   description.Grids = {grid};
   EmitterCell lamp;
@@ -29,6 +30,42 @@ Scene Row()
   lamp.Luminance = {1.0, 1.0, 1.0};
   description.Emitters = {lamp};
   return Scene(description);
+}
+
+/// Slope in the middle cell of a row of the logarithm of a field that falls off by a and b K a
+/// metre, in cells of an extinction coefficient K.
+double SlopeOf(double a, double b, const std::vector<float>& extinction)
+{
+  const auto between = [&](int first)
+  { return -a - b * 0.5 * (extinction[first] + extinction[first + 1]); };
+  const auto factors = SlopeWeights(Row(extinction)).Of(1, 0, {0, 2});
+  return factors[0] * between(0) + factors[1] * between(1);
+}
+
+// Whatever light falls off by, in even smoke both sides count alike, exactly.
+TEST(SlopeWeights, EvenSmoke)
+{
+  for (const float extinction : {1e-6F, 0.3F, 1e4F})
+  {
+    const Scene scene = Row({extinction, extinction, extinction});
+    const auto factors = SlopeWeights(scene).Of(1, 0, {0, 2});
+    EXPECT_NEAR(factors[0], 0.5, 1e-12);
+    EXPECT_NEAR(factors[1], 0.5, 1e-12);
+    EXPECT_NEAR(SlopeWeights(scene).Of(1, 0, {0, -1})[0], 1.0, 1e-12);
+    EXPECT_EQ(SlopeWeights(scene).Of(1, 0, {0, -1})[1], 0.0);
+    EXPECT_EQ(SlopeWeights(scene).Of(1, 0, {-1, -1})[0], 0.0);
+  }
+}
+
+// Clear air beside a layer, the layer beside clear air, and a layer of one cell: the mean of both
+// sides would be off by up to half of the slope in the layer.
+TEST(SlopeWeights, BesideALayer)
+{
+  constexpr double Layer = 3.0;
+  EXPECT_NEAR(SlopeOf(0.2, 1.0, {0.02F, 0.02F, Layer}), -0.22, 0.02);
+  EXPECT_NEAR(SlopeOf(0.2, 1.0, {0.02F, Layer, Layer}), -0.2 - Layer, 0.02 * Layer);
+  EXPECT_NEAR(SlopeOf(0.2, 1.0, {0.02F, Layer, 0.02F}), -0.2 - Layer, 0.1 * Layer);
+  EXPECT_NEAR(SlopeOf(0.2, 0.5, {0.5F, 1.0F, 2.0F}), -0.7, 0.02);
 }
 
 /// A value of a mean, a batch each, of a standard deviation that is given as a share.
@@ -67,20 +104,24 @@ Lanes ValueAt(const Scene& scene, const std::vector<Lanes>& field, const Vec3& p
 // alone have there, where the noise is small enough for the logarithm to be straight.
 TEST(ShapeNoise, IsThatOfFieldsOfEachBatch)
 {
-  const Scene scene = Row();
   const std::vector<Lanes> field = {
     Noisy(5.0, 0.003, 1), Noisy(2.0, 0.0005, 2), Noisy(0.5, 0.002, 3)};
-  for (const double x : {1.0, 1.3, 1.5, 1.9})
+  // In even smoke, and where the neighbours do not count alike.
+  for (const std::vector<float>& extinction : {{1.0F, 1.0F, 1.0F}, std::vector{0.2F, 1.0F, 3.0F}})
   {
-    const Vec3 point(x, 0.5, 0.5);
-    const Lanes value = ValueAt(scene, field, point);
-    for (int batch = 0; batch < Batches; ++batch)
+    const Scene scene = Row(extinction);
+    for (const double x : {1.0, 1.3, 1.5, 1.9})
     {
-      const CellShape own(
-        scene, [&](std::int64_t, std::int64_t cell) { return field[cell][batch]; });
-      const double expected = field[1][batch] * own.Value(1, point);
-      // The second order is about the square of the largest deviation.
-      EXPECT_NEAR(value[batch] / expected, 1.0, 3e-5) << "x = " << x << ", batch " << batch;
+      const Vec3 point(x, 0.5, 0.5);
+      const Lanes value = ValueAt(scene, field, point);
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        const CellShape own(
+          scene, [&](std::int64_t, std::int64_t cell) { return field[cell][batch]; });
+        const double expected = field[1][batch] * own.Value(1, point);
+        // The second order is about the square of the largest deviation.
+        EXPECT_NEAR(value[batch] / expected, 1.0, 3e-5) << "x = " << x << ", batch " << batch;
+      }
     }
   }
 }

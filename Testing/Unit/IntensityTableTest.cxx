@@ -3,6 +3,7 @@
 #include "Errors.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -98,6 +99,20 @@ TEST(IntensityTable, RefusesWhatIsNoDistribution)
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {0, 0}), Error);
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {1, NAN}), Error);
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {1}), Error);
+}
+
+TEST(EmissionLaw, CoarserOutsideItsBeam)
+{
+  const EmissionLaw sharp(20.0);
+  // 0.79^20 is just below a hundredth, 0.39^20 below 1e-8.
+  EXPECT_EQ(sharp.Coarseness(0.8, 1.0), 1.0);
+  EXPECT_EQ(sharp.Coarseness(0.79, 1.0), 2.0);
+  EXPECT_EQ(sharp.Coarseness(0.39, 1.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(sharp.Coarseness(-1.0, 1.0), std::numeric_limits<double>::infinity());
+  // What may touch the light, or lie in its beam.
+  EXPECT_EQ(sharp.Coarseness(0.5, -0.1), 1.0);
+  EXPECT_EQ(sharp.Coarseness(2.0, 1.0), 1.0);
+  EXPECT_EQ(EmissionLaw().Coarseness(1e-9, 1.0), 1.0);
 }
 
 // Luminance times cosine is the intensity; the azimuth grows counter-clockwise from above for a

@@ -60,6 +60,14 @@ TEST(Medium, CellsAndPlaces)
   }
   EXPECT_EQ(medium.Locate({-0.1, 1, 1}), -1);
   EXPECT_EQ(medium.Locate({3.1, 1, 1}), -1);
+  for (const double x : {0.0, 1.0 + 5e-7, 3.0})
+  {
+    EXPECT_TRUE(medium.FacesAt(0, x));
+  }
+  for (const double x : {-1.0, 0.1, 1.0 + 3e-6, 2.0, 4.0})
+  {
+    EXPECT_FALSE(medium.FacesAt(0, x));
+  }
   // The outer faces belong to the smoke.
   EXPECT_EQ(medium.Locate({3, 3, 2}), 7);
   EXPECT_EQ(medium.Locate(Vec3(0.0)), 0);

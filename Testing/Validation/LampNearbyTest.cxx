@@ -71,6 +71,31 @@ TEST(LampNearby, DarkBarsOfASign)
   }
 }
 
+// The dark bars of a sign beside a ceiling that it lights itself, in black smoke: what they reflect
+// comes from two or three patches of 0.4 m, which get more at one end than at the other. What is
+// reflected twice is that of whole patches.
+TEST(LampNearby, DarkBarsBesideLargePatches)
+{
+  report::Head("Indirect illuminance of the dark bars of a sign below a ceiling of large patches");
+  SceneDescription scene;
+  scene.Albedo = 0.0;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 2.6}, {30, 20, 13}, 1.0)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {6, 4, 2.6}, 0.4, 0.8);
+  scene.Emitters =
+    scenes::Barcode({5.99, 2, 2}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.25, 7, 200.0, 0, 0.1);
+  const Solved solved(scene);
+  const ReferenceIntegrator reference(*solved.TheScene);
+  for (const std::size_t cell : {1, 3, 5})
+  {
+    const EmitterSet& lights = solved.TheScene->Lights();
+    const Estimate expected =
+      reference.Illuminance(lights.CellCentre(cell), lights.CellNormal(cell), 200000, 1);
+    const Estimate value = solved.Illuminance({solved.TheScene->SurfacePatches() + cell}, 0);
+    report::Relative("cell " + std::to_string(cell), expected.Mean, value.Mean, 0.03,
+      std::hypot(expected.StandardError, value.StandardError));
+  }
+}
+
 // Fluence under a lamp in cells of one and of two mean free paths, against cells of half the size:
 // in thick cells the light of a lamp does not get as far as it should.
 TEST(LampNearby, InThickCells)
