@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "LightLeaves.h"
+#include "LightSight.h"
 #include "PolygonClip.h"
 #include "SmokeBorders.h"
 #include "Triangle.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
@@ -376,6 +378,23 @@ void EmitterSet::AddLight(std::vector<LightGroup> leaves)
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
+  }
+}
+
+void EmitterSet::MarkCrossed(const LightSight& sight)
+{
+  std::vector<int> open;
+  std::copy_if(this->Lights_.begin(), this->Lights_.end(), std::back_inserter(open),
+    [&](int root) { return sight.Crossed(this->Groups_[root]); });
+  while (!open.empty())
+  {
+    LightGroup& group = this->Groups_[open.back()];
+    open.pop_back();
+    group.Crossed = true;
+    if (group.FirstChild >= 0)
+    {
+      open.insert(open.end(), {group.FirstChild, group.FirstChild + 1});
+    }
   }
 }
 

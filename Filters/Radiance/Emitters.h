@@ -38,6 +38,8 @@ struct EmitterCell
   bool operator==(const EmitterCell&) const = default;
 };
 
+class LightSight;
+
 /// A sign: emitter cells with one id.
 struct Sign
 {
@@ -73,6 +75,9 @@ struct LightGroup
   /// A leaf's quadrilateral (a triangle repeats its last corner), else the rectangle around the
   /// group.
   std::array<Vec3, 4> Corners{};
+  /// Whether something stands on the plate of the light, or goes through it: however far, it may be
+  /// seen in part.
+  bool Crossed = false;
   /// What stands for the leaves of a plane group with a smooth law; a leaf has none.
   std::shared_ptr<const PlateStencil> Stencil;
 
@@ -113,6 +118,9 @@ public:
   /// @param borders where smoke divides the lights; null: nowhere
   EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight,
     const SmokeBorders* borders = nullptr);
+
+  /// Tells the lights that something stands on.
+  void MarkCrossed(const LightSight& sight);
 
   int Bands() const { return this->Bands_; }
   const std::vector<EmitterCell>& Cells() const { return this->Cells_; }

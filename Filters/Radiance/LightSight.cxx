@@ -67,7 +67,17 @@ constexpr auto FewPlaces = []
 
 bool LightSight::Small(const LightGroup& group, const Vec3& point)
 {
-  return group.Radius < SmallRatio * glm::length(group.Centre - point);
+  return !group.Crossed && group.Radius < SmallRatio * glm::length(group.Centre - point);
+}
+
+bool LightSight::Crossed(const LightGroup& group) const
+{
+  const auto place = [&](double u, double v)
+  { return group.At(u, v) + 10.0 * this->Shapes_.Tolerance() * group.Normal; };
+  const Vec3 middle = place(0.5, 0.5);
+  return std::any_of(CornerPlaces.begin(), CornerPlaces.end(),
+    [&](const glm::dvec2& corner)
+    { return !this->Shapes_.Visible(middle, place(corner.x, corner.y)); });
 }
 
 std::span<const glm::dvec2> LightSight::Lattice()

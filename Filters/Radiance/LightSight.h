@@ -26,8 +26,11 @@ public:
   /// @param shapes what hides lights; must outlive this
   explicit LightSight(const Geometry& shapes) : Shapes_(shapes) {}
 
-  /// Whether a group is seen whole or not at all, for it is far.
+  /// Whether a group is seen whole or not at all, for it is far and nothing crosses it.
   static bool Small(const LightGroup& group, const Vec3& point);
+  /// Whether something stands on the plate of a group, or goes through it, between its middle and
+  /// its corners.
+  bool Crossed(const LightGroup& group) const;
   /// Places, as evenly spread as edges of shadows ask for, that tell what is seen of a close group.
   static std::span<const glm::dvec2> Lattice();
 

@@ -3,6 +3,7 @@
 #include "Bodies.h"
 #include "CutCells.h"
 #include "Errors.h"
+#include "LightSight.h"
 #include "NearLights.h"
 #include "OpenFaces.h"
 #include "SmokeBorders.h"
@@ -177,6 +178,7 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   {
     this->FindShapes(glm::length(size));
   }
+  this->Lights_.MarkCrossed(LightSight(*this->Shapes_));
   if (!this->Smoke_.Empty())
   {
     this->Smoke_.Divide(FindCellParts(*this));
