@@ -114,7 +114,7 @@ TEST(Layer, VeilOnBothSidesOfItsBorder)
   // Of a cell's share in the veil, by how its light falls off where it is not quite exponential.
   constexpr double Shapes = 0.01;
   report::Head("Veil along level rays below and above the border of a layer, at 1.8 m [cd/m2]");
-  const Solved solved(LitFromBelow(), 0.02);
+  const Solved solved(LitFromBelow(), 0.03);
   for (const Level& level : Levels)
   {
     const auto light = solved.Trace(LevelRay(level.Height));
