@@ -372,11 +372,9 @@ bool Medium::FacesAt(int axis, double coordinate) const
   return std::any_of(this->Grids_.begin(), this->Grids_.end(),
     [&](const Grid& grid)
     {
-      const std::vector<double>& nodes = grid.Nodes[axis];
-      const auto above = std::lower_bound(nodes.begin() + 1, nodes.end() - 1, coordinate);
-      const auto below = above - 1;
-      return std::min(std::abs(*above - coordinate), std::abs(*below - coordinate)) <
-             1e-6 * (*above - *below);
+      const double* node = grid.Nodes[axis].data() + grid.Index(axis, coordinate);
+      return std::min(std::abs(node[0] - coordinate), std::abs(node[1] - coordinate)) <
+             1e-6 * (node[1] - node[0]);
     });
 }
 

@@ -36,7 +36,9 @@ TEST(DirectBalance, ClosedRoomInEachBand)
   const Solved solved(scene, 0.3);
   EXPECT_EQ(Scaled(solved), 3.0);
   const double flux = solved.TheScene->Lights().Flux(0);
-  EXPECT_NEAR((solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean) / flux, 1.0, 5e-4);
+  // Of the thousandth that quadratures are off by here, what light known from close by may have in
+  // it is left, about an eighth.
+  EXPECT_NEAR((solved.AbsorbedInSmoke().Mean + solved.AbsorbedOnSurfaces().Mean) / flux, 1.0, 2e-4);
   EXPECT_NEAR(solved.PowerBeforeBalance() / flux, 1.0, 0.01);
 }
 
