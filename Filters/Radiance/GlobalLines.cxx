@@ -44,6 +44,16 @@ void DrawThrough(const Box& box, const std::array<double, 4>& random, Vec3& orig
   direction[v] = sine * std::sin(angle);
 }
 
+/// A line through two places anywhere in a box.
+void DrawJoining(const Box& box, const std::array<double, 6>& random, Vec3& origin, Vec3& direction)
+{
+  const Vec3 size = box.Size();
+  origin = box.Lower + Vec3(random[0], random[1], random[2]) * size;
+  const Vec3 way = box.Lower + Vec3(random[3], random[4], random[5]) * size - origin;
+  const double length = glm::length(way);
+  direction = length > 0.0 ? way / length : Vec3(1.0, 0.0, 0.0);
+}
+
 } // namespace
 
 GlobalLines::GlobalLines(const Box& scene, std::size_t lines) : Kinds_{{scene, lines, lines}}
@@ -55,6 +65,23 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
   this->Kinds_.push_back({inner, lines, this->Count() + lines});
 }
 
+void GlobalLines::AddJoining(const Box& inner, std::size_t lines)
+{
+  this->Kinds_.push_back({inner, lines, this->Count() + lines, true});
+}
+
+double GlobalLines::Kind::DensityAt(double length) const
+{
+  if (!this->Joins)
+  {
+    return this->Density();
+  }
+  // Pairs of places are as many as pairs along each line times the square of their distance, which
+  // over all pairs on a line adds up to a sixth of the fourth power of its length (Santalo 1976).
+  const double share = length * length / this->Through.Volume();
+  return glm::half_pi<double>() * static_cast<double>(this->Lines) * share * share / 6.0;
+}
+
 GlobalLines GlobalLines::Thinned(double share) const
 {
   const auto part = [share](const Kind& kind)
@@ -62,7 +89,8 @@ GlobalLines GlobalLines::Thinned(double share) const
   GlobalLines thinned(this->Outer(), part(this->Kinds_.front()));
   for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
   {
-    thinned.AddInner(kind->Through, part(*kind));
+    const std::size_t lines = part(*kind);
+    thinned.Kinds_.push_back({kind->Through, lines, thinned.Count() + lines, kind->Joins});
   }
   return thinned;
 }
@@ -84,6 +112,7 @@ GlobalLines::Draw::Draw(const GlobalLines& lines, std::uint64_t key) : Lines_(li
   for (std::size_t kind = 0; kind < lines.Kinds_.size(); ++kind)
   {
     this->Points_.emplace_back(key);
+    this->Pairs_.emplace_back(key);
     key = Mix(key);
   }
 }
@@ -93,10 +122,17 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const std::vector<Kind>& kinds = this->Lines_.Kinds_;
   const auto drawn = std::find_if(
     kinds.begin(), kinds.end(), [index](const Kind& kind) { return index < kind.End; });
+  const std::size_t kind = drawn - kinds.begin();
+  const std::size_t own = index - (drawn->End - drawn->Lines);
   Line line;
-  DrawThrough(drawn->Through,
-    this->Points_[drawn - kinds.begin()].Point(index - (drawn->End - drawn->Lines)), line.Origin,
-    line.Direction);
+  if (drawn->Joins)
+  {
+    DrawJoining(drawn->Through, this->Pairs_[kind].Point(own), line.Origin, line.Direction);
+  }
+  else
+  {
+    DrawThrough(drawn->Through, this->Points_[kind].Point(own), line.Origin, line.Direction);
+  }
   const Vec3 inverse = 1.0 / line.Direction;
   const auto stretch = [&](const Box& box)
   {
@@ -105,10 +141,10 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
     return ends;
   };
   double density = kinds.front().Density();
-  for (auto kind = kinds.begin() + 1; kind != kinds.end(); ++kind)
+  for (auto other = kinds.begin() + 1; other != kinds.end(); ++other)
   {
-    const auto [enter, leave] = stretch(kind->Through);
-    density += kind == drawn || leave > enter ? kind->Density() : 0.0;
+    const auto [enter, leave] = stretch(other->Through);
+    density += other == drawn || leave > enter ? other->DensityAt(leave - enter) : 0.0;
   }
   const auto [begin, end] = stretch(kinds.front().Through);
   line.Origin += begin * line.Direction;

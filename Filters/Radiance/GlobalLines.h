@@ -12,8 +12,9 @@ namespace smokevis
 {
 
 /// Lines of the uniform measure that meet the scene's box and, where things lie closer together,
-/// further ones that meet boxes in it. Each counts by the density of all kinds together (the
-/// balance heuristic of Veach and Guibas 1995), so that sums over all of them have no bias.
+/// further ones that meet boxes in it; and such as run far through a box, of which those would be
+/// few. Each counts by the density of all kinds together (the balance heuristic of Veach and Guibas
+/// 1995), so that sums over all of them have no bias.
 class GlobalLines
 {
 public:
@@ -32,6 +33,10 @@ public:
   /// @param inner box inside the scene's
   /// @param lines through it, beside all others
   void AddInner(const Box& inner, std::size_t lines);
+  /// Lines that join two places anywhere in a box: far ones as often as near ones.
+  /// @param inner box inside the scene's
+  /// @param lines beside all others
+  void AddJoining(const Box& inner, std::size_t lines);
 
   /// The same with a share of the lines, each of which counts for more.
   GlobalLines Thinned(double share) const;
@@ -55,8 +60,9 @@ public:
   private:
     const GlobalLines& Lines_;
     std::uint64_t Key_;
-    /// Of each kind.
+    /// Of each kind: for lines through a box, and for such as join places in it.
     std::vector<EvenPoints<>> Points_;
+    std::vector<EvenPoints<6>> Pairs_;
   };
 
 private:
@@ -67,9 +73,16 @@ private:
     std::size_t Lines;
     /// Behind its last among all lines.
     std::size_t End;
+    /// Whether each joins two places in the box.
+    bool Joins = false;
 
-    /// Lines a unit of surface [1/m2].
-    double Density() const { return static_cast<double>(this->Lines) / this->Through.Surface(); }
+    /// Lines a unit of surface [1/m2]; of those that join places next to none are sure.
+    double Density() const
+    {
+      return this->Joins ? 0.0 : static_cast<double>(this->Lines) / this->Through.Surface();
+    }
+    /// The same of the lines close to one that runs so far through the box [m].
+    double DensityAt(double length) const;
   };
 
   /// The scene's first.

@@ -31,6 +31,9 @@ constexpr double MuchFiner = 2.0;
 /// tolerance: the light that is sent on there comes to other places along them. Above FineTolerance
 /// their share falls with its square: a few sweeps there must be, which bring less noise anyway.
 constexpr double BrightLines = 0.5;
+/// Lines that join places of the main box, over all others through it: in a corridor's dark layer
+/// most noise is that of the few lines which run lengthwise and bring the light of its bright end.
+constexpr double LongLines = 0.2;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.7;
 /// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
@@ -236,6 +239,8 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
   {
     addThrough(body.Bounds, bright * body.Share);
   }
+  lines.AddJoining(
+    main, static_cast<std::size_t>(std::ceil(LongLines * static_cast<double>(mainLines))));
   return lines;
 }
 

@@ -45,11 +45,13 @@ public:
 
   std::array<double, Dimensions> Point(std::uint64_t index) const
   {
-    static_assert(Dimensions == 4 || Dimensions == 5);
-    constexpr double root = Dimensions == 4 ? 1.1673039782614187 : 1.1347241384015195;
-    constexpr std::array<double, 5> step = {1.0 / root, 1.0 / (root * root),
+    static_assert(Dimensions >= 4 && Dimensions <= 6);
+    constexpr double root = Dimensions == 4   ? 1.1673039782614187
+                            : Dimensions == 5 ? 1.1347241384015195
+                                              : 1.1127756842787055;
+    constexpr std::array<double, 6> step = {1.0 / root, 1.0 / (root * root),
       1.0 / (root * root * root), 1.0 / (root * root * root * root),
-      1.0 / (root * root * root * root * root)};
+      1.0 / (root * root * root * root * root), 1.0 / (root * root * root * root * root * root)};
     std::array<double, Dimensions> point;
     for (int axis = 0; axis < Dimensions; ++axis)
     {

@@ -62,7 +62,10 @@ TEST(GlobalLines, ChordsFillEveryBody)
   GlobalLines nested = both;
   nested.AddInner({{0.5, 0.5, 0}, {2.5, 2, 2}}, 100);
   nested.AddInner({{0.8, 0.8, 0.2}, {3.5, 2.5, 2}}, 100);
-  for (const GlobalLines& lines : {plain, both, nested})
+  // Lines that join places are not counted on: they come beside the others.
+  GlobalLines joined = nested;
+  joined.AddJoining(smoke, 300);
+  for (const GlobalLines& lines : {plain, both, nested, joined})
   {
     for (const Box& body : {inSmoke, outside, across, smoke})
     {
@@ -79,7 +82,7 @@ TEST(GlobalLines, ChordsFillEveryBody)
       const double meetings = Through(lines, body).Meetings;
       const double error = std::sqrt(least / 400.0);
       EXPECT_GT(meetings, least - 4.0 * error);
-      if (inside || lines.Count() == plain.Count())
+      if ((inside && lines.Count() != joined.Count()) || lines.Count() == plain.Count())
       {
         EXPECT_LT(meetings, least + 4.0 * error);
       }
@@ -87,11 +90,35 @@ TEST(GlobalLines, ChordsFillEveryBody)
   }
 }
 
+// Two places in a corridor lie a third of its length apart in the mean; a line through the corridor
+// runs four times its volume over its surface.
+TEST(GlobalLines, SomeRunFar)
+{
+  const Box corridor = {{0, 0, 0}, {30, 2, 2}};
+  const auto meanLength = [](const GlobalLines& lines)
+  {
+    const GlobalLines::Draw draw(lines, 7);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < lines.Count(); ++i)
+    {
+      sum += draw.Get(i).Length;
+    }
+    return sum / static_cast<double>(lines.Count());
+  };
+  const double chord = 4.0 * corridor.Volume() / corridor.Surface();
+  GlobalLines lines(corridor, 4000);
+  // The standard deviation of a chord is about itself: five standard errors.
+  EXPECT_NEAR(meanLength(lines), chord, 0.08 * chord);
+  lines.AddJoining(corridor, 4000);
+  EXPECT_GT(meanLength(lines), 0.5 * (chord + 10.0));
+}
+
 TEST(GlobalLines, BeginAndEndOnTheScenesBorder)
 {
   const Box scene = {{-10, -10, -1}, {10, 10, 10}};
   GlobalLines lines(scene, 500);
   lines.AddInner({{0, 0, 0}, {1, 1, 1}}, 500);
+  lines.AddJoining({{0, 0, 0}, {1, 1, 1}}, 500);
   const GlobalLines::Draw draw(lines, 7);
   const auto onBorder = [&scene](const Vec3& point)
   {
