@@ -4,6 +4,7 @@
 #include "DirectBalance.h"
 #include "DirectLight.h"
 #include "NearLights.h"
+#include "PlateCovers.h"
 #include "ReportedLoop.h"
 #include "Scene.h"
 #include "Team.h"
@@ -200,17 +201,20 @@ void DirectSolve::Patches()
     return;
   }
   const DirectLight direct(this->Scene_);
+  const PlateCovers covers(this->Scene_.Shapes(), this->Scene_.EmitterMesh());
   const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(this->Scene_);
   this->ForOwn(patches.size(), 16, CellShare, 1.0,
     [&](std::size_t patch)
     {
       double area = 0.0;
+      // What is dark or covered of the two sides.
+      std::array<double, 2> hidden = {
+        this->Scene_.EnclosedArea(patch, 0), this->Scene_.EnclosedArea(patch, 1)};
       std::vector<std::array<Spectrum, 2>> ofLights(lights);
-      for (const Triangle& corners : patches[patch])
+      const auto add =
+        [&](const Triangle& corners, const Vec3& normal, const std::array<double, 2>& signs)
       {
-        const Vec3 normal = glm::normalize(AreaVector(corners));
         const double own = AreaOf(corners);
-        area += own;
         for (std::size_t light = 0; light < lights; ++light)
         {
           const auto value = direct.TriangleIlluminance(light, corners, normal);
@@ -218,23 +222,43 @@ void DirectSolve::Patches()
           {
             for (int band = 0; band < this->Field_.Bands; ++band)
             {
-              ofLights[light][side][band] += own * value[side][band];
+              ofLights[light][side][band] += signs[side] * own * value[side][band];
             }
+          }
+        }
+      };
+      for (const Triangle& corners : patches[patch])
+      {
+        const Vec3 normal = glm::normalize(AreaVector(corners));
+        area += AreaOf(corners);
+        add(corners, normal, {1.0, 1.0});
+        if (patch >= this->Scene_.SurfacePatches())
+        {
+          continue;
+        }
+        // What plates cover is theirs.
+        const std::array<std::vector<Triangle>, 2> covered = covers.On(corners);
+        for (int side = 0; side < 2; ++side)
+        {
+          for (const Triangle& part : covered[side])
+          {
+            hidden[side] += AreaOf(part);
+            add(part, normal, {side == 0 ? -1.0 : 0.0, side == 1 ? -1.0 : 0.0});
           }
         }
       }
       for (int side = 0; side < 2; ++side)
       {
-        // The mean over what is not dark, if anything is.
-        const double dark = this->Scene_.EnclosedArea(patch, side);
-        const bool covered = dark > 0.0 && this->Scene_.ExposedArea(patch, side) == 0.0;
-        const double scale = covered || !(area > dark) ? 0.0 : 1.0 / (area - dark);
+        // The mean over what is not hidden, if anything is.
+        const bool none = hidden[side] > 0.0 && this->Scene_.ExposedArea(patch, side) == 0.0;
+        const double scale = none || !(area > hidden[side]) ? 0.0 : 1.0 / (area - hidden[side]);
         for (std::size_t light = 0; light < lights; ++light)
         {
           Spectrum& own = ofLights[light][side];
           for (int band = 0; band < this->Field_.Bands; ++band)
           {
-            own[band] *= scale;
+            // Where plates overlap, they take more than there is.
+            own[band] = std::max(0.0, own[band]) * scale;
             this->PatchSums_[patch][side][band] += own[band];
           }
           if (this->Balance_->Watches(light))

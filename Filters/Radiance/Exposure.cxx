@@ -2,6 +2,7 @@
 
 #include "Bodies.h"
 #include "Geometry.h"
+#include "PlateCovers.h"
 #include "Sampler.h"
 #include "Scene.h"
 
@@ -114,6 +115,18 @@ std::array<Shares, 2> FindShares(const Geometry& shapes, const Bodies& bodies, c
   return {{{share(exposed[0]), share(enclosed[0])}, {share(exposed[1]), share(enclosed[1])}}};
 }
 
+/// Whether plates, which may be too small for the first places, cover a part of a surface.
+bool HasPlate(const PlateCovers& covers, const Piece& piece)
+{
+  if (piece.Emitter)
+  {
+    return false;
+  }
+  const auto parts =
+    covers.On({piece.Corner, piece.Corner + piece.First, piece.Corner + piece.Second});
+  return !parts[0].empty() || !parts[1].empty();
+}
+
 } // namespace
 
 bool Exposure::AnyEnclosed() const
@@ -126,6 +139,7 @@ Exposure FindExposure(const Geometry& shapes, const Bodies& bodies, const Surfac
   const SurfaceMesh& emitters)
 {
   const std::vector<Piece> pieces = PiecesOf(shapes, surfaces, emitters);
+  const PlateCovers covers(shapes, emitters);
   const std::size_t firstPlaces = std::clamp(
     AllFirstPlaces / std::max<std::size_t>(1, pieces.size()), FewestFirstPlaces, MostFirstPlaces);
   /// Of the places on each piece, and on each of its sides.
@@ -136,7 +150,7 @@ Exposure FindExposure(const Geometry& shapes, const Bodies& bodies, const Surfac
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
         shares[i] = FindShares(shapes, bodies, pieces[i], i, firstPlaces);
-        if (!shares[i][0].All() || !shares[i][1].All())
+        if (!shares[i][0].All() || !shares[i][1].All() || HasPlate(covers, pieces[i]))
         {
           shares[i] = FindShares(shapes, bodies, pieces[i], i, Places);
         }
