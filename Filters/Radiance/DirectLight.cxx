@@ -22,8 +22,8 @@ constexpr double AlikeDepth = 0.04;
 
 } // namespace
 
-DirectLight::DirectLight(const Scene& scene, const NearLights* near)
-    : Scene_(scene), Sight_(scene.Shapes()), Near_(near)
+DirectLight::DirectLight(const Scene& scene, const NearLights* near, double tolerance)
+    : Scene_(scene), Sight_(scene.Shapes()), Near_(near), Bend_(BendFor(tolerance))
 {
 }
 
@@ -174,7 +174,12 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
   {
     receiver.Close = this->WaysTo(root, point);
   }
-  return this->Fluence(light, receiver);
+  Spectrum fluence = this->Fluence(light, receiver);
+  if (!receiver.Extinction && !receiver.Close)
+  {
+    this->DimUnevenly(light, point, fluence);
+  }
+  return fluence;
 }
 
 } // namespace smokevis

@@ -27,7 +27,9 @@ class DirectLight
 {
 public:
   /// @param near what is known of lights near to cells already; must outlive this
-  explicit DirectLight(const Scene& scene, const NearLights* near = nullptr);
+  /// @param tolerance that is asked for; a large one lets few ways stand for many sooner
+  explicit DirectLight(
+    const Scene& scene, const NearLights* near = nullptr, double tolerance = 0.0);
 
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
@@ -61,6 +63,13 @@ public:
   /// @param skips whether ways are told and negligible lights left out
   BlockWork AddBlockFluence(
     std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const;
+  /// Optical depths of the ways from a point to a light's centre and to the corners of the
+  /// rectangle around it, at 633 nm.
+  struct Across
+  {
+    double Centre;
+    std::array<double, 4> Corners;
+  };
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const Triangle& corners, const Vec3& normal) const;
@@ -137,6 +146,21 @@ private:
   double ChangeOver(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;
+  static double BendFor(double tolerance);
+  /// Ways to a far light of which one does not stand for all; none where it does, or where each
+  /// place has its own.
+  std::optional<Across> WaysAcross(std::size_t light, const Vec3& point) const;
+  /// Whether they change across the plate as a parabola does.
+  bool Smooth(const Across& ways) const;
+  /// Mean over a light of what the smoke lets through, over what it lets through from its centre.
+  Spectrum Unevenness(std::size_t light, const Vec3& point, const Across& ways) const;
+  /// The same of the cells of a block that are asked for, x fastest; none where all are 1. Where
+  /// ways change smoothly, those of its corners tell.
+  /// @param far whether one way to the light stands for all from anywhere in the block, or would
+  std::vector<Spectrum> UnevennessIn(
+    std::size_t light, const Medium::Block& block, const std::vector<bool>& asked, bool far) const;
+  /// Corrects by it what the way to the centre of a light told.
+  void DimUnevenly(std::size_t light, const Vec3& point, Spectrum& value) const;
   /// Adds what is above the horizon of a receiver of a leaf that it cuts, or nothing of one that is
   /// below; returns whether it is either.
   bool AddAboveHorizon(const LightGroup& leaf, const Receiver& receiver, const Path* path,
@@ -301,13 +325,16 @@ private:
   /// The same, to one eighth of the block after another.
   BlockWork AddPartsFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
     std::vector<Spectrum>& sums) const;
+  /// @param uneven whether smoke may dim the light unevenly there
   /// @param level how often it was split from a whole triangle
-  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, int level,
-    double weight, std::array<Spectrum, 2>& sum) const;
+  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, bool uneven,
+    int level, double weight, std::array<Spectrum, 2>& sum) const;
 
   const Scene& Scene_;
   LightSight Sight_;
   const NearLights* Near_;
+  /// Optical depth by which ways across a far light may depart from a straight course [1].
+  double Bend_;
 };
 
 } // namespace smokevis

@@ -81,16 +81,17 @@ std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   const Front front =
     FrontOf(this->Scene_.Lights().Root(light), corners, this->Scene_.Shapes().Tolerance());
   const double area = AreaOf(corners);
+  const bool uneven = this->WaysAcross(light, CentreOf(corners)).has_value();
   for (int part = 0; part < front.Count; ++part)
   {
     const double share = AreaOf(front.Parts[part]) / area;
-    this->AddTriangle(light, front.Parts[part], normal, 0, share, sum);
+    this->AddTriangle(light, front.Parts[part], normal, uneven, 0, share, sum);
   }
   return sum;
 }
 
 void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal,
-  int level, double weight, std::array<Spectrum, 2>& sum) const
+  bool uneven, int level, double weight, std::array<Spectrum, 2>& sum) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Vec3 centre = CentreOf(corners);
@@ -112,10 +113,13 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0])};
     const double quarter = 0.25 * weight;
-    this->AddTriangle(light, {corners[0], middle[0], middle[2]}, normal, level + 1, quarter, sum);
-    this->AddTriangle(light, {middle[0], corners[1], middle[1]}, normal, level + 1, quarter, sum);
-    this->AddTriangle(light, {middle[2], middle[1], corners[2]}, normal, level + 1, quarter, sum);
-    this->AddTriangle(light, middle, normal, level + 1, quarter, sum);
+    this->AddTriangle(
+      light, {corners[0], middle[0], middle[2]}, normal, uneven, level + 1, quarter, sum);
+    this->AddTriangle(
+      light, {middle[0], corners[1], middle[1]}, normal, uneven, level + 1, quarter, sum);
+    this->AddTriangle(
+      light, {middle[2], middle[1], corners[2]}, normal, uneven, level + 1, quarter, sum);
+    this->AddTriangle(light, middle, normal, uneven, level + 1, quarter, sum);
   };
   const double plate = PlateShare * root.Radius * root.Law.Sharpness();
   if (level < MostSplits && size > TriangleRatio * std::max(distance, plate))
@@ -133,7 +137,11 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
       {
         continue;
       }
-      const Spectrum value = this->Illuminance(light, point, face == 0 ? normal : -normal, clear);
+      Spectrum value = this->Illuminance(light, point, face == 0 ? normal : -normal, clear);
+      if (uneven)
+      {
+        this->DimUnevenly(light, point, value);
+      }
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
         sum[face][band] += weight * share * value[band];

@@ -167,7 +167,7 @@ void DirectSolve::Cells()
   {
     return;
   }
-  const DirectLight direct(this->Scene_, &this->Scene_.Near());
+  const DirectLight direct(this->Scene_, &this->Scene_.Near(), this->Options_.Tolerance);
   this->NearCells();
   this->AddParts(direct);
   std::atomic<std::size_t> told{0};
@@ -200,7 +200,7 @@ void DirectSolve::Patches()
   {
     return;
   }
-  const DirectLight direct(this->Scene_);
+  const DirectLight direct(this->Scene_, nullptr, this->Options_.Tolerance);
   const PlateCovers covers(this->Scene_.Shapes(), this->Scene_.EmitterMesh());
   const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(this->Scene_);
   this->ForOwn(patches.size(), 16, CellShare, 1.0,

@@ -378,6 +378,7 @@ void EmitterSet::AddLight(std::vector<LightGroup> leaves)
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));
     this->Groups_.emplace_back();
     this->FillGroup(this->Lights_.back(), leaves, 0, leaves.size());
+    this->Strips_.emplace_back(this->Groups_[this->Lights_.back()].Corners, leaves, this->Bands_);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "EmissionLaw.h"
 #include "PlateStencil.h"
+#include "PlateStrips.h"
 #include "Types.h"
 
 #include <memory>
@@ -139,6 +140,8 @@ public:
   const std::vector<LightGroup>& Groups() const { return this->Groups_; }
   /// The root of the light at a place among Lights().
   const LightGroup& Root(std::size_t light) const { return this->Groups_[this->Lights_[light]]; }
+  /// The same light in strips.
+  const PlateStrips& Strips(std::size_t light) const { return this->Strips_[light]; }
   /// Luminous flux that all cells emit [lm]; a cell's is 2 pi L A / (n + 2), or pi L A with a
   /// table.
   double Flux(int band) const;
@@ -166,6 +169,7 @@ private:
   std::vector<bool> LeftToLines_;
   std::vector<Sign> Signs_;
   std::vector<int> Lights_;
+  std::vector<PlateStrips> Strips_;
   std::vector<LightGroup> Groups_;
 };
 

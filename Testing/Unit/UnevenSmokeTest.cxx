@@ -1,0 +1,116 @@
+// Light of a far sign that smoke dims unevenly: through the border of a layer.
+#include "DirectLight.h"
+#include "Scene.h"
+#include "SceneLibrary.h"
+#include "Solved.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr double Border = 1.98;
+
+/// A corridor of 30 m with a layer ten times as dense, and a sign of bars at its end.
+/// @param height of the sign's centre [m]
+SceneDescription Corridor(double height)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.0;
+  const Vec3 upper(30.0, 2.4, 2.7);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), upper, {150, 12, 15}, 0.1);
+  std::fill(grid.Extinction.begin() + std::size_t{11} * 12 * 150, grid.Extinction.end(), 1.0F);
+  scene.Grids = {grid};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.6, 0.0);
+  scene.Emitters =
+    scenes::Barcode({29.99, 1.2, height}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 9, 200.0, 0);
+  return scene;
+}
+
+/// Fluence by a sum over many places of each cell of the sign, each with its own way.
+double Summed(const Scene& scene, const Vec3& point)
+{
+  constexpr int Across = 4;
+  constexpr int Up = 80;
+  double sum = 0.0;
+  for (const EmitterCell& cell : scene.Lights().Cells())
+  {
+    Vec3 across = cell.Vertices[1] - cell.Vertices[0];
+    Vec3 up = cell.Vertices[3] - cell.Vertices[0];
+    if (std::abs(across.z) > std::abs(up.z))
+    {
+      std::swap(across, up);
+    }
+    const double area = glm::length(glm::cross(across, up)) / (Across * Up);
+    for (int i = 0; i < Across * Up && cell.Luminance[0] > 0.0; ++i)
+    {
+      const Vec3 place =
+        cell.Vertices[0] + (i % Across + 0.5) / Across * across + (i / Across + 0.5) / Up * up;
+      const double distance = glm::length(point - place);
+      const Vec3 way = (point - place) / distance;
+      const double depth = scene.Smoke().OpticalDepth(place, way, 0.0, distance);
+      sum += cell.Luminance[0] * area * std::abs(way.x) / (distance * distance) * std::exp(-depth);
+    }
+  }
+  return sum;
+}
+
+double AtPoint(const Scene& scene, const Vec3& point)
+{
+  const DirectLight direct(scene);
+  double sum = 0.0;
+  for (std::size_t light = 0; light < scene.Lights().Lights().size(); ++light)
+  {
+    sum += direct.Fluence(light, point)[0];
+  }
+  return sum;
+}
+
+// Below the layer, far from the sign, its upper part is seen through the layer; from within it ways
+// to the upper edge are far longer in it than those to the lower. One way for all was up to 15 %
+// off.
+TEST(UnevenSmoke, FarPlateAtAPoint)
+{
+  for (const double height : {1.8, 1.9, Border, 2.05})
+  {
+    const Scene scene(Corridor(height));
+    for (const Vec3& point : {Vec3(26, 1.2, 1.9), Vec3(22, 0.7, 1.7), Vec3(15, 1.2, 0.5),
+           Vec3(5, 1.9, 1.6), Vec3(22, 1.2, 2.3), Vec3(26, 1.2, 2.1)})
+    {
+      // The way to the centre stands for all where that is right to a percent.
+      EXPECT_NEAR(AtPoint(scene, point) / Summed(scene, point), 1.0, 0.012)
+        << height << ": " << point.x << ' ' << point.z;
+    }
+  }
+}
+
+// Means over cells, which learn it cell by cell or from the corners of their block.
+TEST(UnevenSmoke, CellMeans)
+{
+  const Solved solved(Corridor(Border), 0.01);
+  const Scene& scene = *solved.TheScene;
+  for (const Vec3& point :
+    {Vec3(24.1, 1.1, 1.9), Vec3(20.1, 1.1, 1.5), Vec3(12.1, 1.1, 0.3), Vec3(6.1, 0.3, 1.9)})
+  {
+    constexpr int Edge = 6;
+    const std::int64_t cell = scene.Smoke().Locate(point);
+    const Box box = scene.Smoke().BoxOf(cell);
+    double mean = 0.0;
+    for (int i = 0; i < Edge * Edge * Edge; ++i)
+    {
+      const Vec3 place(i % Edge, i / Edge % Edge, i / (Edge * Edge));
+      mean += Summed(scene, box.Lower + (place + 0.5) / double{Edge} * box.Size());
+    }
+    mean /= Edge * Edge * Edge;
+    // The share is that at the cell's centre.
+    EXPECT_NEAR(solved.Fluence(box.Centre()).Mean / mean, 1.0, 0.015) << point.x << ' ' << point.z;
+  }
+}
+
+} // namespace
