@@ -24,6 +24,8 @@ constexpr double SpanOverBend = 15.0;
 constexpr double SmoothTimes = 2.0;
 /// Optical depth over the plate below which half of the strips do.
 constexpr double PairedSpan = 3.0;
+/// Optical depth over half of a strip's width that counts at most: beyond, light ends within it.
+constexpr double MostHalf = 2.0;
 
 /// Whether ways to two opposite corners of a plate and to its centre differ by no more than these.
 bool Within(const std::array<double, 2>& corners, double centre, double bend)
@@ -124,8 +126,8 @@ Spectrum DirectLight::Unevenness(std::size_t light, const Vec3& point, const Acr
       {
         // The mean of an exponential along the strip's width.
         const double extinction = this->Scene_.ExtinctionScale(band);
-        const double half = 0.5 * extinction * change;
-        const double mean = std::abs(half) > 1e-4 ? std::sinh(half) / half : 1.0;
+        const double half = std::min(MostHalf, 0.5 * extinction * std::abs(change));
+        const double mean = half > 1e-4 ? std::sinh(half) / half : 1.0;
         const double share =
           strips[wide * i].Share[band] + (wide == 2 ? strips[2 * i + 1].Share[band] : 0.0);
         ratio[band] += share / static_cast<double>(lines) * mean *

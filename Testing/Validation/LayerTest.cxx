@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,74 @@ TEST(Layer, VeilOnBothSidesOfItsBorder)
     const auto light = solved.Trace(LevelRay(level.Height));
     report::Relative(std::to_string(level.Height) + " m", level.Reference.Mean, light.Veil(),
       Shapes, std::hypot(level.Reference.StandardError, StandardError(light.VeilMultiple)));
+  }
+}
+
+/// A corridor of 30 m with a layer ten times as dense, lit by nothing but the sign at its end,
+/// below the layer.
+SceneDescription CorridorLitByItsSign()
+{
+  SceneDescription description;
+  description.Albedo = 0.7;
+  const Vec3 upper(30.0, 2.4, 2.7);
+  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), upper, {150, 12, 15}, Below);
+  std::fill(grid.Extinction.begin() + std::size_t{11} * 12 * 150, grid.Extinction.end(), 1.0F);
+  description.Grids = {grid};
+  scenes::AddRoom(description.Surfaces, Vec3(0.0), upper, 0.6, 0.2);
+  description.Emitters =
+    scenes::Barcode({29.99, 1.2, 1.6}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 9, 200.0, 0, 0.1);
+  return description;
+}
+
+/// Veil from an eye to the sign's first dark bar, by the reference integrator (15 million samples,
+/// seed 1) [cd/m2].
+struct Look
+{
+  Vec3 Eye;
+  Estimate Reference;
+};
+
+const std::vector<Look> Looks = {{{4.1, 1.2, 1.6}, {0.0572614, 0.000156}},
+  {{24.3, 1.5, 2.2}, {0.0834991, 0.00009}}, {{20.0, 0.9, 2.3}, {0.00682099, 0.0000094}}};
+
+Ray ToDarkBar(const Scene& scene, const Vec3& eye)
+{
+  const std::size_t bar = scene.Lights().Signs()[0].Cells[1];
+  return {eye, glm::normalize(scene.Lights().CellCentre(bar) - eye)};
+}
+
+// From the clear air below and from within the layer, where few lines bring light: those that run
+// lengthwise.
+TEST(Layer, CorridorLitByItsSign)
+{
+  // As above.
+  constexpr double Shapes = 0.01;
+  report::Head("Veil before a sign, the only light of a corridor with a layer [cd/m2]");
+  const Solved solved(CorridorLitByItsSign(), 0.01);
+  for (const Look& look : Looks)
+  {
+    const auto light = solved.Trace(ToDarkBar(*solved.TheScene, look.Eye));
+    report::Relative(std::to_string(look.Eye.x) + " m, " + std::to_string(look.Eye.z) + " m",
+      look.Reference.Mean, light.Veil(), Shapes,
+      std::hypot(look.Reference.StandardError, StandardError(light.VeilMultiple)));
+  }
+  const double sweeps = WorkCount(solved.Field->Report, "counted sweeps");
+  std::printf("%.0f counted sweeps\n", sweeps);
+  EXPECT_LT(sweeps, 80.0);
+}
+
+// What the reference values are from.
+TEST(Layer, CorridorReferenceLong)
+{
+  report::Head("The same by the reference integrator against the values of the test [cd/m2]");
+  const Scene scene(CorridorLitByItsSign());
+  const ReferenceIntegrator reference(scene);
+  for (const Look& look : Looks)
+  {
+    const Estimate value = reference.Veil(ToDarkBar(scene, look.Eye), 3000000, 2);
+    report::Relative(std::to_string(look.Eye.x) + " m, " + std::to_string(look.Eye.z) + " m",
+      look.Reference.Mean, value.Mean, 0.0,
+      std::hypot(look.Reference.StandardError, value.StandardError));
   }
 }
 
