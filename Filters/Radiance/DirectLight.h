@@ -154,11 +154,6 @@ private:
   bool Smooth(const Across& ways) const;
   /// Mean over a light of what the smoke lets through, over what it lets through from its centre.
   Spectrum Unevenness(std::size_t light, const Vec3& point, const Across& ways) const;
-  /// The same of the cells of a block that are asked for, x fastest; none where all are 1. Where
-  /// ways change smoothly, those of its corners tell.
-  /// @param far whether one way to the light stands for all from anywhere in the block, or would
-  std::vector<Spectrum> UnevennessIn(
-    std::size_t light, const Medium::Block& block, const std::vector<bool>& asked, bool far) const;
   /// Corrects by it what the way to the centre of a light told.
   void DimUnevenly(std::size_t light, const Vec3& point, Spectrum& value) const;
   /// Adds what is above the horizon of a receiver of a leaf that it cuts, or nothing of one that is
@@ -264,6 +259,9 @@ private:
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
     const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
+  /// Mean over the light's cell, corrected where smoke dims the light unevenly.
+  /// @param fluence the mean by one way from each place to the light
+  Spectrum UnevenFluence(const BoxLight& light, const Spectrum& fluence) const;
   /// Whether a box lies wholly behind a plate, and so gets nothing.
   static bool Behind(const LightGroup& root, const Vec3& centre, const Vec3& size);
   /// Of boxes that light hardly gets into.

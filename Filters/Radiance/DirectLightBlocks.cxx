@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace smokevis
@@ -263,8 +262,6 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
   const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
     ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
-  const std::vector<Spectrum> uneven =
-    weak ? std::vector<Spectrum>() : this->UnevennessIn(light, block, asked, far);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -272,13 +269,8 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       if (asked[number])
       {
         const std::int64_t cell = smoke.Cell(block, place);
-        Spectrum own = this->CellFluence({light, cell, deepening[number], far, weak});
-        if (!uneven.empty())
-        {
-          std::transform(
-            own.begin(), own.end(), uneven[number].begin(), own.begin(), std::multiplies<>());
-        }
-        Accumulate(sums[cell], own, shown[number]);
+        const BoxLight own{light, cell, deepening[number], far, weak};
+        Accumulate(sums[cell], this->UnevenFluence(own, this->CellFluence(own)), shown[number]);
       }
     });
 }

@@ -2,6 +2,7 @@
 // the upper and to the lower edge of a sign differ much, however far it is.
 #include "DirectLight.h"
 
+#include "GaussNodes.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -147,65 +148,34 @@ void DirectLight::DimUnevenly(std::size_t light, const Vec3& point, Spectrum& va
   }
 }
 
-std::vector<Spectrum> DirectLight::UnevennessIn(
-  std::size_t light, const Medium::Block& block, const std::vector<bool>& asked, bool far) const
+Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluence) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  std::array<Spectrum, 8> corners;
-  bool even = far;
-  bool smooth = far;
-  for (std::size_t corner = 0; far && corner < corners.size(); ++corner)
+  const Vec3 centre = smoke.CellCentre(light.Cell);
+  const Vec3 size = smoke.CellSize(light.Cell);
+  // In dense cells the mean is of what comes in through their faces, not of their centres.
+  if (light.Weak || this->BoxDepth(light.Cell, size) >= FlatDepth)
   {
-    std::array<int, 3> place;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = corner >> axis & 1 ? block.Size[axis] - 1 : 0;
-    }
-    const Vec3 point = smoke.CellCentre(smoke.Cell(block, place));
-    const auto ways = this->WaysAcross(light, point);
-    even = even && !ways;
-    smooth = smooth && (!ways || this->Smooth(*ways));
-    corners[corner].fill(1.0);
-    if (ways && smooth)
-    {
-      corners[corner] = this->Unevenness(light, point, *ways);
-    }
+    return fluence;
   }
-  std::vector<Spectrum> ratios;
-  if (even)
+  const auto ways = this->WaysAcross(light.Index, centre);
+  if (!ways)
   {
-    return ratios;
+    return fluence;
   }
-  Spectrum one;
-  one.fill(1.0);
-  ratios.assign(block.Cells(), one);
-  block.ForEachCell(
-    [&](const std::array<int, 3>& place)
-    {
-      const std::size_t number = block.Number(place);
-      if (!asked[number])
-      {
-        return;
-      }
-      if (!smooth)
-      {
-        this->DimUnevenly(light, smoke.CellCentre(smoke.Cell(block, place)), ratios[number]);
-        return;
-      }
-      ratios[number] = {};
-      for (std::size_t corner = 0; corner < corners.size(); ++corner)
-      {
-        double weight = 1.0;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          const double t =
-            block.Size[axis] > 1 ? static_cast<double>(place[axis]) / (block.Size[axis] - 1) : 0.0;
-          weight *= corner >> axis & 1 ? t : 1.0 - t;
-        }
-        Accumulate(ratios[number], corners[corner], weight);
-      }
-    });
-  return ratios;
+  Spectrum mean{};
+  if (this->Smooth(*ways))
+  {
+    mean = this->Unevenness(light.Index, centre, *ways);
+    std::transform(mean.begin(), mean.end(), fluence.begin(), mean.begin(), std::multiplies<>());
+    return mean;
+  }
+  for (int place = 0; place < 8; ++place)
+  {
+    const Vec3 at(Nodes2[place & 1], Nodes2[place >> 1 & 1], Nodes2[place >> 2]);
+    Accumulate(mean, this->Fluence(light.Index, centre + (at - 0.5) * size, true), 0.125);
+  }
+  return mean;
 }
 
 } // namespace smokevis
