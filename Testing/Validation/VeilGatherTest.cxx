@@ -85,7 +85,7 @@ Spread SpreadOf(const std::vector<Estimate>& values)
 // takes the last mean free paths anew.
 TEST(VeilGather, DarkHall)
 {
-  constexpr int Seeds = 24;
+  constexpr int Seeds = 28;
   constexpr double FlatCells = 0.1;
   report::Head("Veil before a sign in the dark [cd/m2]");
   const Solved fine(DarkHall(2), 0.005, 99);
