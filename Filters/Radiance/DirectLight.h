@@ -7,6 +7,7 @@
 #include "Triangle.h"
 #include "Types.h"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -63,13 +64,6 @@ public:
   /// @param skips whether ways are told and negligible lights left out
   BlockWork AddBlockFluence(
     std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const;
-  /// Optical depths of the ways from a point to a light's centre and to the corners of the
-  /// rectangle around it, at 633 nm.
-  struct Across
-  {
-    double Centre;
-    std::array<double, 4> Corners;
-  };
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const Triangle& corners, const Vec3& normal) const;
@@ -146,12 +140,41 @@ private:
   double ChangeOver(const LightGroup& group, const Receiver& receiver) const;
   void Gather(const LightGroup& group, const Receiver& receiver, const Path* path, int splits,
     Spectrum& sum) const;
+  /// Optical depths of the ways from a point to a light's centre and to the corners of the
+  /// rectangle around it, at 633 nm.
+  struct Across
+  {
+    double Centre;
+    std::array<double, 4> Corners;
+
+    /// By how much they differ along the rectangle's first edge, and along its last one; twice.
+    double Along() const
+    {
+      return std::abs(this->Corners[1] - this->Corners[0]) +
+             std::abs(this->Corners[2] - this->Corners[3]);
+    }
+    double Up() const
+    {
+      return std::abs(this->Corners[3] - this->Corners[0]) +
+             std::abs(this->Corners[2] - this->Corners[1]);
+    }
+  };
   static double BendFor(double tolerance);
   /// Ways to a far light of which one does not stand for all; none where it does, or where each
   /// place has its own.
   std::optional<Across> WaysAcross(std::size_t light, const Vec3& point) const;
   /// Whether they change across the plate as a parabola does.
   bool Smooth(const Across& ways) const;
+  /// A part of a light, and the optical depth of the way to its middle, at 633 nm.
+  struct DimmedPart
+  {
+    Spectrum Share{};
+    double Depth = 0.0;
+  };
+  /// The light's strips along the edge that ways differ along most, some of them together.
+  /// @param line which of their two places to look at; none: their middles
+  std::vector<DimmedPart> PartsAcross(
+    std::size_t light, const Vec3& point, const Across& ways, const std::optional<int>& line) const;
   /// Mean over a light of what the smoke lets through, over what it lets through from its centre.
   Spectrum Unevenness(std::size_t light, const Vec3& point, const Across& ways) const;
   /// Corrects by it what the way to the centre of a light told.
@@ -331,7 +354,7 @@ private:
   const Scene& Scene_;
   LightSight Sight_;
   const NearLights* Near_;
-  /// Optical depth by which ways across a far light may depart from a straight course [1].
+  /// Optical depth by which ways across a far light may depart from a straight course.
   double Bend_;
 };
 

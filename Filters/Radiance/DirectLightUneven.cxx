@@ -23,8 +23,10 @@ constexpr double MostBend = 0.1;
 constexpr double SpanOverBend = 15.0;
 /// The same of what a parabola through them follows: so many times as much.
 constexpr double SmoothTimes = 2.0;
-/// Optical depth over the plate below which half of the strips do.
+/// Optical depth over the plate below which two strips count together, and along its strips below
+/// which their middles stand for them.
 constexpr double PairedSpan = 3.0;
+constexpr double LittleAside = 0.2;
 /// Optical depth over half of a strip's width that counts at most: beyond, light ends within it.
 constexpr double MostHalf = 2.0;
 
@@ -85,56 +87,73 @@ bool DirectLight::Smooth(const Across& ways) const
   return within(0, 2) && within(1, 3);
 }
 
+std::vector<DirectLight::DimmedPart> DirectLight::PartsAcross(
+  std::size_t light, const Vec3& point, const Across& ways, const std::optional<int>& line) const
+{
+  const int edge = ways.Along() > ways.Up() ? 0 : 1;
+  const auto& strips = this->Scene_.Lights().Strips(light).Along(edge);
+  const bool smooth = this->Smooth(ways);
+  const double span = 0.5 * std::max(ways.Along(), ways.Up()) * this->Scene_.LargestScale();
+  const std::size_t together = !smooth && span < PairedSpan ? 2 : 1;
+  const double begin = 0.5 * (ways.Corners[0] + ways.Corners[edge == 0 ? 3 : 1]);
+  const double end = 0.5 * (ways.Corners[2] + ways.Corners[edge == 0 ? 1 : 3]);
+  const double bend = 0.5 * (begin + end) - ways.Centre;
+  std::vector<DimmedPart> parts(strips.size() / together);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const PlateStrips::Strip& first = strips[together * i];
+    const PlateStrips::Strip& last = strips[together * i + together - 1];
+    parts[i].Share = first.Share;
+    if (together > 1)
+    {
+      Accumulate(parts[i].Share, last.Share);
+    }
+    if (smooth)
+    {
+      const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(parts.size());
+      parts[i].Depth = begin + t * (end - begin) - 4.0 * t * (1.0 - t) * bend;
+    }
+    else
+    {
+      const Vec3 place = 0.5 * (first.Places[line.value_or(0)] + last.Places[line.value_or(1)]);
+      parts[i].Depth = this->Depth({point, std::nullopt}, place);
+    }
+  }
+  return parts;
+}
+
 Spectrum DirectLight::Unevenness(std::size_t light, const Vec3& point, const Across& ways) const
 {
-  const std::array<double, 4>& corners = ways.Corners;
-  const double along = std::abs(corners[1] - corners[0]) + std::abs(corners[2] - corners[3]);
-  const double up = std::abs(corners[3] - corners[0]) + std::abs(corners[2] - corners[1]);
-  const int edge = along > up ? 0 : 1;
-  const auto& strips = this->Scene_.Lights().Strips(light).Along(edge);
-  const double begin = 0.5 * (corners[0] + corners[edge == 0 ? 3 : 1]);
-  const double end = 0.5 * (corners[2] + corners[edge == 0 ? 1 : 3]);
-  const bool smooth = this->Smooth(ways);
-  // Along the strips one line does where ways change little there.
-  const double scale = this->Scene_.LargestScale();
-  const std::size_t lines =
-    smooth || std::min(along, up) * scale <= SpanOverBend * EvenBend ? 1 : 2;
-  // So do two strips together where they change little across.
-  const std::size_t wide = !smooth && std::max(along, up) * scale < 2.0 * PairedSpan ? 2 : 1;
-  constexpr std::size_t most = PlateStrips::Count;
-  const std::size_t count = most / wide;
   Spectrum ratio{};
-  for (std::size_t line = 0; line < lines; ++line)
+  const auto add = [&](const std::optional<int>& line, double weight)
   {
-    std::array<double, most> depths;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-      const auto& first = strips[wide * i].Places;
-      const auto& last = strips[wide * i + wide - 1].Places;
-      const std::size_t other = lines == 1 ? 1 : line;
-      depths[i] = smooth ? begin + t * (end - begin) -
-                             4.0 * t * (1.0 - t) * (0.5 * (begin + end) - ways.Centre)
-                         : this->Depth({point, std::nullopt}, 0.5 * (first[line] + last[other]));
-    }
-    for (std::size_t i = 0; i < count; ++i)
+    const std::vector<DimmedPart> parts = this->PartsAcross(light, point, ways, line);
+    for (std::size_t i = 0; i < parts.size(); ++i)
     {
       const std::size_t before = i == 0 ? 0 : i - 1;
-      const std::size_t behind = std::min(i + 1, count - 1);
+      const std::size_t behind = std::min(i + 1, parts.size() - 1);
       const double change =
-        (depths[behind] - depths[before]) / static_cast<double>(behind - before);
+        (parts[behind].Depth - parts[before].Depth) / static_cast<double>(behind - before);
       for (int band = 0; band < this->Scene_.Bands(); ++band)
       {
-        // The mean of an exponential along the strip's width.
+        // The mean of an exponential along the part's width.
         const double extinction = this->Scene_.ExtinctionScale(band);
         const double half = std::min(MostHalf, 0.5 * extinction * std::abs(change));
         const double mean = half > 1e-4 ? std::sinh(half) / half : 1.0;
-        const double share =
-          strips[wide * i].Share[band] + (wide == 2 ? strips[2 * i + 1].Share[band] : 0.0);
-        ratio[band] += share / static_cast<double>(lines) * mean *
-                       std::exp(-extinction * (depths[i] - ways.Centre));
+        ratio[band] += weight * parts[i].Share[band] * mean *
+                       std::exp(-extinction * (parts[i].Depth - ways.Centre));
       }
     }
+  };
+  const double aside = 0.5 * std::min(ways.Along(), ways.Up()) * this->Scene_.LargestScale();
+  if (this->Smooth(ways) || aside <= LittleAside)
+  {
+    add(std::nullopt, 1.0);
+  }
+  else
+  {
+    add(0, 0.5);
+    add(1, 0.5);
   }
   return ratio;
 }
