@@ -17,10 +17,10 @@ namespace
 
 /// Optical depth by which the mean of the ways to a plate's corners may differ from the way to its
 /// centre, at a small tolerance and at a large one: that way stands for all then, to a percent or
-/// to three. By how many times this the corners themselves may differ.
+/// to some. By how many times this the corners themselves may differ.
 constexpr double EvenBend = 0.03;
-constexpr double MostBend = 0.1;
-constexpr double SpanOverBend = 15.0;
+constexpr double MostBend = 0.2;
+constexpr double SpanOverBend = 20.0;
 /// The same of what a parabola through them follows: so many times as much.
 constexpr double SmoothTimes = 2.0;
 /// Optical depth over the plate below which two strips count together, and along its strips below
@@ -189,10 +189,10 @@ Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluen
     std::transform(mean.begin(), mean.end(), fluence.begin(), mean.begin(), std::multiplies<>());
     return mean;
   }
-  for (int place = 0; place < 8; ++place)
+  // Two places on a diagonal follow what changes across the cell as a cubic does along it.
+  for (const double at : Nodes2)
   {
-    const Vec3 at(Nodes2[place & 1], Nodes2[place >> 1 & 1], Nodes2[place >> 2]);
-    Accumulate(mean, this->Fluence(light.Index, centre + (at - 0.5) * size, true), 0.125);
+    Accumulate(mean, this->Fluence(light.Index, centre + (at - 0.5) * size, true), 0.5);
   }
   return mean;
 }
