@@ -282,6 +282,8 @@ private:
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
     const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
+  /// Whether some of the cells of a block that are looked at have such ways.
+  bool UnevenIn(std::size_t light, const Medium::Block& block) const;
   /// Mean over the light's cell, corrected where smoke dims the light unevenly.
   /// @param fluence the mean by one way from each place to the light
   Spectrum UnevenFluence(const BoxLight& light, const Spectrum& fluence) const;

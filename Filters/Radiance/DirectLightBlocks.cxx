@@ -262,6 +262,8 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
   const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
     ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
+  // Where a few ways tell of all to the light's centre, they tell of those to its edges.
+  const bool even = weak || (ways.Told > 0 && !this->UnevenIn(light, block));
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
@@ -270,7 +272,8 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       {
         const std::int64_t cell = smoke.Cell(block, place);
         const BoxLight own{light, cell, deepening[number], far, weak};
-        Accumulate(sums[cell], this->UnevenFluence(own, this->CellFluence(own)), shown[number]);
+        const Spectrum fluence = this->CellFluence(own);
+        Accumulate(sums[cell], even ? fluence : this->UnevenFluence(own, fluence), shown[number]);
       }
     });
 }

@@ -167,13 +167,25 @@ void DirectLight::DimUnevenly(std::size_t light, const Vec3& point, Spectrum& va
   }
 }
 
+bool DirectLight::UnevenIn(std::size_t light, const Medium::Block& block) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  // Its middle, and corners of which no two share an edge.
+  const std::array<int, 3> last = {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1};
+  const std::array<std::array<int, 3>, 5> places = {{{last[0] / 2, last[1] / 2, last[2] / 2},
+    {0, 0, 0}, {last[0], last[1], 0}, {last[0], 0, last[2]}, {0, last[1], last[2]}}};
+  return std::any_of(places.begin(), places.end(),
+    [&](const std::array<int, 3>& place)
+    { return this->WaysAcross(light, smoke.CellCentre(smoke.Cell(block, place))).has_value(); });
+}
+
 Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluence) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const Vec3 centre = smoke.CellCentre(light.Cell);
   const Vec3 size = smoke.CellSize(light.Cell);
   // In dense cells the mean is of what comes in through their faces, not of their centres.
-  if (light.Weak || this->BoxDepth(light.Cell, size) >= FlatDepth)
+  if (this->BoxDepth(light.Cell, size) >= FlatDepth)
   {
     return fluence;
   }
