@@ -90,7 +90,7 @@ TEST(UnevenSmoke, FarPlateAtAPoint)
   }
 }
 
-// Means over cells, which learn it cell by cell or from the corners of their block.
+// Means over thin cells.
 TEST(UnevenSmoke, CellMeans)
 {
   const Solved solved(Corridor(Border), 0.01);
@@ -108,7 +108,7 @@ TEST(UnevenSmoke, CellMeans)
       mean += Summed(scene, box.Lower + (place + 0.5) / double{Edge} * box.Size());
     }
     mean /= Edge * Edge * Edge;
-    // The share is that at the cell's centre.
+    // Two places stand for the cell.
     EXPECT_NEAR(solved.Fluence(box.Centre()).Mean / mean, 1.0, 0.015) << point.x << ' ' << point.z;
   }
 }
