@@ -15,24 +15,6 @@ namespace
 
 using namespace smokevis;
 
-constexpr double Border = 1.98;
-
-/// A corridor of 30 m with a layer ten times as dense, and a sign of bars at its end.
-/// @param height of the sign's centre [m]
-SceneDescription Corridor(double height)
-{
-  SceneDescription scene;
-  scene.Albedo = 0.0;
-  const Vec3 upper(30.0, 2.4, 2.7);
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), upper, {150, 12, 15}, 0.1);
-  std::fill(grid.Extinction.begin() + std::size_t{11} * 12 * 150, grid.Extinction.end(), 1.0F);
-  scene.Grids = {grid};
-  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.6, 0.0);
-  scene.Emitters =
-    scenes::Barcode({29.99, 1.2, height}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 9, 200.0, 0);
-  return scene;
-}
-
 /// Fluence by a sum over many places of each cell of the sign, each with its own way.
 double Summed(const Scene& scene, const Vec3& point)
 {
@@ -77,9 +59,9 @@ double AtPoint(const Scene& scene, const Vec3& point)
 // off.
 TEST(UnevenSmoke, FarPlateAtAPoint)
 {
-  for (const double height : {1.8, 1.9, Border, 2.05})
+  for (const double height : {1.8, 1.9, 1.98, 2.05})
   {
-    const Scene scene(Corridor(height));
+    const Scene scene(scenes::LayeredCorridor(height, 0.0, 0.0));
     for (const Vec3& point : {Vec3(26, 1.2, 1.9), Vec3(22, 0.7, 1.7), Vec3(15, 1.2, 0.5),
            Vec3(5, 1.9, 1.6), Vec3(22, 1.2, 2.3), Vec3(26, 1.2, 2.1)})
     {
@@ -93,7 +75,7 @@ TEST(UnevenSmoke, FarPlateAtAPoint)
 // Means over thin cells.
 TEST(UnevenSmoke, CellMeans)
 {
-  const Solved solved(Corridor(Border), 0.01);
+  const Solved solved(scenes::LayeredCorridor(1.98, 0.0, 0.0), 0.01);
   const Scene& scene = *solved.TheScene;
   for (const Vec3& point :
     {Vec3(24.1, 1.1, 1.9), Vec3(20.1, 1.1, 1.5), Vec3(12.1, 1.1, 0.3), Vec3(6.1, 0.3, 1.9)})

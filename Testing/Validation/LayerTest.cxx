@@ -124,20 +124,10 @@ TEST(Layer, VeilOnBothSidesOfItsBorder)
   }
 }
 
-/// A corridor of 30 m with a layer ten times as dense, lit by nothing but the sign at its end,
-/// below the layer.
+/// Nothing but its sign, below the layer, lights the corridor.
 SceneDescription CorridorLitByItsSign()
 {
-  SceneDescription description;
-  description.Albedo = 0.7;
-  const Vec3 upper(30.0, 2.4, 2.7);
-  SmokeGrid grid = scenes::UniformSmoke(Vec3(0.0), upper, {150, 12, 15}, Below);
-  std::fill(grid.Extinction.begin() + std::size_t{11} * 12 * 150, grid.Extinction.end(), 1.0F);
-  description.Grids = {grid};
-  scenes::AddRoom(description.Surfaces, Vec3(0.0), upper, 0.6, 0.2);
-  description.Emitters =
-    scenes::Barcode({29.99, 1.2, 1.6}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 9, 200.0, 0, 0.1);
-  return description;
+  return scenes::LayeredCorridor(1.6, 0.7, 0.2);
 }
 
 /// Veil from an eye to the sign's first dark bar, by the reference integrator (15 million samples,

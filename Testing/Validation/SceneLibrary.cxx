@@ -194,6 +194,21 @@ SceneDescription Corridor(double extinction, int lamps, double albedo, double re
 }
 
 //--------------------------------------------------------------------------------------------------
+SceneDescription LayeredCorridor(double height, double albedo, double reflectance)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  const Vec3 upper(30.0, 2.4, 2.7);
+  SmokeGrid grid = UniformSmoke(Vec3(0.0), upper, {150, 12, 15}, 0.1);
+  std::fill(grid.Extinction.begin() + std::size_t{11} * 12 * 150, grid.Extinction.end(), 1.0F);
+  scene.Grids = {grid};
+  AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.6, reflectance);
+  scene.Emitters =
+    Barcode({29.99, 1.2, height}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 9, 200.0, 0, 0.5 * reflectance);
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance)
 {

@@ -46,6 +46,12 @@ EmitterCell Plate(const Vec3& centre, const Vec3& normal, const Vec3& up, double
 SceneDescription Corridor(
   double extinction, int lamps = 15, double albedo = 0.5, double reflectance = 0.0);
 
+/// A corridor of 30 x 2.4 x 2.7 m with a layer of 1 /m above 1.98 m and 0.1 /m below, lit by
+/// nothing but a sign at its end.
+/// @param height of the sign's centre [m]
+/// @param reflectance of the walls; of the sign half of that
+SceneDescription LayeredCorridor(double height, double albedo, double reflectance);
+
 /// A sign of vertical stripes of equal width, every other one lit, beginning with a lit one.
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance = 0.0);
