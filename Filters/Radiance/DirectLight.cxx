@@ -160,6 +160,15 @@ double DirectLight::ChangeOver(const LightGroup& group, const Receiver& receiver
   return change * this->Scene_.LargestScale();
 }
 
+void DirectLight::WalkFar(const LightGroup& root, Receiver& receiver) const
+{
+  const Vec3 from = receiver.Point - root.Centre;
+  if (Far(root, receiver.Point) && glm::dot(from, root.Normal) > -root.Radius)
+  {
+    receiver.Extinction = this->Depth(receiver, root.Centre) / glm::length(from);
+  }
+}
+
 Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
@@ -174,12 +183,14 @@ Spectrum DirectLight::Fluence(std::size_t light, const Vec3& point, bool clear) 
   {
     receiver.Close = this->WaysTo(root, point);
   }
-  Spectrum fluence = this->Fluence(light, receiver);
-  if (!receiver.Extinction && !receiver.Close)
+  else
   {
-    this->DimUnevenly(light, point, fluence);
+    this->WalkFar(root, receiver);
+    Spectrum fluence = this->Fluence(light, receiver);
+    this->DimUnevenly(light, receiver, fluence);
+    return fluence;
   }
-  return fluence;
+  return this->Fluence(light, receiver);
 }
 
 } // namespace smokevis

@@ -39,8 +39,7 @@ public:
   /// whole of a light.
   bool Clear(std::size_t light, std::int64_t cell) const;
   /// Illuminance at a point of a surface with a unit normal [lx].
-  Spectrum Illuminance(
-    std::size_t light, const Vec3& point, const Vec3& normal, bool clear = false) const;
+  Spectrum Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const;
   /// Mean fluence over a part of a cell that walls cut [lx].
   Spectrum PartFluence(std::size_t light, const CellPart& part) const;
   /// Mean fluence over a smoke cell, or the part with this number, of a light near to it [lx].
@@ -160,9 +159,15 @@ private:
     }
   };
   static double BendFor(double tolerance);
+  /// Whether a light is so far from a point that one way may stand for all.
+  static bool Far(const LightGroup& root, const Vec3& point);
+  /// Lets a receiver that lies before such a light know of the ways to it.
+  void WalkFar(const LightGroup& root, Receiver& receiver) const;
   /// Ways to a far light of which one does not stand for all; none where it does, or where each
   /// place has its own.
-  std::optional<Across> WaysAcross(std::size_t light, const Vec3& point) const;
+  /// @param extinction mean along the way to its centre, if known [1/m]
+  std::optional<Across> WaysAcross(
+    std::size_t light, const Vec3& point, const std::optional<double>& extinction) const;
   /// Whether they change across the plate as a parabola does.
   bool Smooth(const Across& ways) const;
   /// A part of a light, and the optical depth of the way to its middle, at 633 nm.
@@ -178,7 +183,7 @@ private:
   /// Mean over a light of what the smoke lets through, over what it lets through from its centre.
   Spectrum Unevenness(std::size_t light, const Vec3& point, const Across& ways) const;
   /// Corrects by it what the way to the centre of a light told.
-  void DimUnevenly(std::size_t light, const Vec3& point, Spectrum& value) const;
+  void DimUnevenly(std::size_t light, const Receiver& receiver, Spectrum& value) const;
   /// Adds what is above the horizon of a receiver of a leaf that it cuts, or nothing of one that is
   /// below; returns whether it is either.
   bool AddAboveHorizon(const LightGroup& leaf, const Receiver& receiver, const Path* path,
@@ -190,6 +195,7 @@ private:
     const LightGroup& group, const Receiver& receiver, const Path* path, Spectrum& sum) const;
   void AddLeaf(
     const LightGroup& leaf, const Receiver& receiver, const Path& path, Spectrum& sum) const;
+  /// Fluence or illuminance at a receiver.
   Spectrum Fluence(std::size_t light, const Receiver& receiver) const;
   /// Mean fluence over a cell of a light that is near to it; none where it is not.
   std::optional<Spectrum> KeptFluence(std::size_t light, std::int64_t cell) const;
@@ -216,7 +222,8 @@ private:
   /// The ways from cells to a light.
   LightWays CellWays(std::size_t light) const;
   /// Mean fluence over the light's cell, no part of one.
-  Spectrum CellFluence(BoxLight light) const;
+  /// @param even whether smoke is known not to dim the light unevenly there
+  Spectrum CellFluence(BoxLight light, bool even) const;
   /// The same over what finer grids leave of the cell.
   Spectrum OwnFluence(const BoxLight& light, int splits) const;
   /// What a light that were a point would send along a way from it, over its luminous intensity.
@@ -348,10 +355,21 @@ private:
   /// The same, to one eighth of the block after another.
   BlockWork AddPartsFluence(std::size_t light, Known& known, const Medium::Block& block, bool skips,
     std::vector<Spectrum>& sums) const;
-  /// @param uneven whether smoke may dim the light unevenly there
-  /// @param level how often it was split from a whole triangle
-  void AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal, bool uneven,
-    int level, double weight, std::array<Spectrum, 2>& sum) const;
+  /// A triangle before a light.
+  struct LitTriangle
+  {
+    std::size_t Light;
+    Vec3 Centre, Normal;
+    /// Whether smoke may dim the light unevenly there, once that was asked for.
+    std::optional<bool> Uneven{};
+    /// Illuminances of its front and back, as far as they are summed up.
+    std::array<Spectrum, 2> Sum{};
+  };
+  /// Adds what a place on a part of it gets.
+  void AddPlace(LitTriangle& whole, const Vec3& point, double weight, bool clear) const;
+  /// Adds a part of it.
+  /// @param level how often it was split from the whole
+  void AddTriangle(LitTriangle& whole, const Triangle& corners, int level, double weight) const;
 
   const Scene& Scene_;
   LightSight Sight_;

@@ -272,8 +272,7 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       {
         const std::int64_t cell = smoke.Cell(block, place);
         const BoxLight own{light, cell, deepening[number], far, weak};
-        const Spectrum fluence = this->CellFluence(own);
-        Accumulate(sums[cell], even ? fluence : this->UnevenFluence(own, fluence), shown[number]);
+        Accumulate(sums[cell], this->CellFluence(own, even), shown[number]);
       }
     });
 }

@@ -95,7 +95,7 @@ Spectrum DirectLight::NearCellFluence(
   return value;
 }
 
-Spectrum DirectLight::CellFluence(BoxLight light) const
+Spectrum DirectLight::CellFluence(BoxLight light, bool even) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
   const Box whole = this->Scene_.Smoke().BoxOf(light.Cell);
@@ -104,7 +104,8 @@ Spectrum DirectLight::CellFluence(BoxLight light) const
     !light.Far && LargestEdge(whole.Size()) * sharpness > BoxRatio * root.Distance(whole.Centre());
   light.Far = light.Far || (!splits && root.Radius * sharpness <
                                          PathRatio * glm::length(whole.Centre() - root.Centre));
-  return this->OwnFluence(light, splits ? BoxSplits : 0);
+  const Spectrum fluence = this->OwnFluence(light, splits ? BoxSplits : 0);
+  return even ? fluence : this->UnevenFluence(light, fluence);
 }
 
 Spectrum DirectLight::OwnFluence(const BoxLight& light, int splits) const

@@ -370,13 +370,9 @@ Spectrum DirectLight::Fluence(std::size_t light, const Receiver& receiver) const
   return sum;
 }
 
-Spectrum DirectLight::Illuminance(
-  std::size_t light, const Vec3& point, const Vec3& normal, bool clear) const
+Spectrum DirectLight::Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const
 {
-  Spectrum sum{};
-  const LightGroup& root = this->Scene_.Lights().Root(light);
-  this->Gather(root, {point, normal, clear}, nullptr, SplitsOf(root.Law), sum);
-  return sum;
+  return this->Fluence(light, Receiver{point, normal});
 }
 
 } // namespace smokevis

@@ -77,23 +77,48 @@ Front FrontOf(const LightGroup& root, const Triangle& corners, double tolerance)
 std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   std::size_t light, const Triangle& corners, const Vec3& normal) const
 {
-  std::array<Spectrum, 2> sum{};
   const Front front =
     FrontOf(this->Scene_.Lights().Root(light), corners, this->Scene_.Shapes().Tolerance());
   const double area = AreaOf(corners);
-  const bool uneven = this->WaysAcross(light, CentreOf(corners)).has_value();
+  LitTriangle whole{light, CentreOf(corners), normal};
   for (int part = 0; part < front.Count; ++part)
   {
-    const double share = AreaOf(front.Parts[part]) / area;
-    this->AddTriangle(light, front.Parts[part], normal, uneven, 0, share, sum);
+    this->AddTriangle(whole, front.Parts[part], 0, AreaOf(front.Parts[part]) / area);
   }
-  return sum;
+  return whole.Sum;
 }
 
-void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const Vec3& normal,
-  bool uneven, int level, double weight, std::array<Spectrum, 2>& sum) const
+void DirectLight::AddPlace(
+  LitTriangle& whole, const Vec3& point, double weight, bool clear) const
 {
-  const LightGroup& root = this->Scene_.Lights().Root(light);
+  const LightGroup& root = this->Scene_.Lights().Root(whole.Light);
+  Receiver receiver{point, std::nullopt, clear};
+  this->WalkFar(root, receiver);
+  for (int face = 0; face < 2; ++face)
+  {
+    // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
+    receiver.Normal = face == 0 ? whole.Normal : -whole.Normal;
+    if (glm::dot(root.Centre - point, *receiver.Normal) <= -root.Radius)
+    {
+      continue;
+    }
+    Spectrum value = this->Fluence(whole.Light, receiver);
+    if (!whole.Uneven && IsLit(value))
+    {
+      whole.Uneven = this->WaysAcross(whole.Light, whole.Centre, {}).has_value();
+    }
+    if (whole.Uneven.value_or(false))
+    {
+      this->DimUnevenly(whole.Light, receiver, value);
+    }
+    Accumulate(whole.Sum[face], value, weight);
+  }
+}
+
+void DirectLight::AddTriangle(
+  LitTriangle& whole, const Triangle& corners, int level, double weight) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(whole.Light);
   const Vec3 centre = CentreOf(corners);
   const double distance = root.Distance(centre);
   // What does not reach before the light gets nothing from it: so do the light's own cells, and the
@@ -113,13 +138,10 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     const std::array<Vec3, 3> middle = {0.5 * (corners[0] + corners[1]),
       0.5 * (corners[1] + corners[2]), 0.5 * (corners[2] + corners[0])};
     const double quarter = 0.25 * weight;
-    this->AddTriangle(
-      light, {corners[0], middle[0], middle[2]}, normal, uneven, level + 1, quarter, sum);
-    this->AddTriangle(
-      light, {middle[0], corners[1], middle[1]}, normal, uneven, level + 1, quarter, sum);
-    this->AddTriangle(
-      light, {middle[2], middle[1], corners[2]}, normal, uneven, level + 1, quarter, sum);
-    this->AddTriangle(light, middle, normal, uneven, level + 1, quarter, sum);
+    this->AddTriangle(whole, {corners[0], middle[0], middle[2]}, level + 1, quarter);
+    this->AddTriangle(whole, {middle[0], corners[1], middle[1]}, level + 1, quarter);
+    this->AddTriangle(whole, {middle[2], middle[1], corners[2]}, level + 1, quarter);
+    this->AddTriangle(whole, middle, level + 1, quarter);
   };
   const double plate = PlateShare * root.Radius * root.Law.Sharpness();
   if (level < MostSplits && size > TriangleRatio * std::max(distance, plate))
@@ -127,30 +149,11 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     splitAll();
     return;
   }
-  const auto add = [&](const Vec3& point, double share, bool clear)
-  {
-    for (int face = 0; face < 2; ++face)
-    {
-      // Light comes from one side of the triangle's plane, unless the plane cuts the emitter.
-      const double side = glm::dot(root.Centre - point, normal);
-      if ((face == 0 ? side : -side) <= -root.Radius)
-      {
-        continue;
-      }
-      Spectrum value = this->Illuminance(light, point, face == 0 ? normal : -normal, clear);
-      if (uneven)
-      {
-        this->DimUnevenly(light, point, value);
-      }
-      for (int band = 0; band < this->Scene_.Bands(); ++band)
-      {
-        sum[face][band] += weight * share * value[band];
-      }
-    }
-  };
   if (size < (level == 0 ? TrianglePointRatio : PartPointRatio) * distance)
   {
-    add(centre, 1.0, false);
+    // It tells of itself whether the light is dimmed unevenly.
+    whole.Uneven = level == 0 ? std::optional(true) : whole.Uneven;
+    this->AddPlace(whole, centre, weight, false);
     return;
   }
   std::array<std::vector<bool>, 3> seen;
@@ -177,7 +180,7 @@ void DirectLight::AddTriangle(std::size_t light, const Triangle& corners, const 
     {
       for (const Vec3& corner : corners)
       {
-        add(glm::mix(centre, corner, points[i]), weights[i], clear);
+        this->AddPlace(whole, glm::mix(centre, corner, points[i]), weight * weights[i], clear);
       }
     }
   };

@@ -44,19 +44,24 @@ double DirectLight::BendFor(double tolerance)
   return std::clamp(tolerance, EvenBend, MostBend);
 }
 
+bool DirectLight::Far(const LightGroup& root, const Vec3& point)
+{
+  return root.Radius * root.Law.Sharpness() < PathRatio * glm::length(root.Centre - point);
+}
+
 std::optional<DirectLight::Across> DirectLight::WaysAcross(
-  std::size_t light, const Vec3& point) const
+  std::size_t light, const Vec3& point, const std::optional<double>& extinction) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   const Medium& smoke = this->Scene_.Smoke();
-  const double distance = glm::length(root.Centre - point);
-  if (!(root.Radius * root.Law.Sharpness() < PathRatio * distance) ||
-      (smoke.EvenAt(point) && smoke.EvenAt(root.Centre)))
+  if (!Far(root, point) || (smoke.EvenAt(point) && smoke.EvenAt(root.Centre)))
   {
     return std::nullopt;
   }
-  const Receiver receiver{point, std::nullopt};
+  Receiver receiver{point, std::nullopt};
+  receiver.Extinction = extinction;
   Across ways{this->Depth(receiver, root.Centre), {}};
+  receiver.Extinction.reset();
   if (ways.Centre * this->Scene_.SmallestScale() > DeepestDepth)
   {
     return std::nullopt;
@@ -158,9 +163,14 @@ Spectrum DirectLight::Unevenness(std::size_t light, const Vec3& point, const Acr
   return ratio;
 }
 
-void DirectLight::DimUnevenly(std::size_t light, const Vec3& point, Spectrum& value) const
+void DirectLight::DimUnevenly(std::size_t light, const Receiver& receiver, Spectrum& value) const
 {
-  if (const auto ways = this->WaysAcross(light, point))
+  if (!IsLit(value))
+  {
+    return;
+  }
+  const Vec3& point = receiver.Point;
+  if (const auto ways = this->WaysAcross(light, point, receiver.Extinction))
   {
     const Spectrum ratio = this->Unevenness(light, point, *ways);
     std::transform(value.begin(), value.end(), ratio.begin(), value.begin(), std::multiplies<>());
@@ -176,7 +186,7 @@ bool DirectLight::UnevenIn(std::size_t light, const Medium::Block& block) const
     {0, 0, 0}, {last[0], last[1], 0}, {last[0], 0, last[2]}, {0, last[1], last[2]}}};
   return std::any_of(places.begin(), places.end(),
     [&](const std::array<int, 3>& place)
-    { return this->WaysAcross(light, smoke.CellCentre(smoke.Cell(block, place))).has_value(); });
+    { return this->WaysAcross(light, smoke.CellCentre(smoke.Cell(block, place)), {}).has_value(); });
 }
 
 Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluence) const
@@ -184,12 +194,15 @@ Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluen
   const Medium& smoke = this->Scene_.Smoke();
   const Vec3 centre = smoke.CellCentre(light.Cell);
   const Vec3 size = smoke.CellSize(light.Cell);
-  // In dense cells the mean is of what comes in through their faces, not of their centres.
-  if (this->BoxDepth(light.Cell, size) >= FlatDepth)
+  // In dense cells the mean is of what comes in through their faces, not of their centres; where
+  // places in a cell have ways of their own, those are corrected already.
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  const bool own = !light.Far || (this->BehindBorder(light) && LargestEdge(size) * root.Law.Sharpness() > FlatRatio * root.Distance(centre));
+  if (own || !IsLit(fluence) || this->BoxDepth(light.Cell, size) >= FlatDepth)
   {
     return fluence;
   }
-  const auto ways = this->WaysAcross(light.Index, centre);
+  const auto ways = this->WaysAcross(light.Index, centre, light.Ways.Mean);
   if (!ways)
   {
     return fluence;

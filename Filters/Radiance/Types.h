@@ -1,6 +1,7 @@
 // Small value types that every part of the radiance solver shares.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,11 @@ inline void Accumulate(Spectrum& sum, const Spectrum& value, double share = 1.0)
   {
     sum[band] += share * value[band];
   }
+}
+
+inline bool IsLit(const Spectrum& value)
+{
+  return std::any_of(value.begin(), value.end(), [](double each) { return each > 0.0; });
 }
 
 /// Independent batches of the light-field estimate. Sixteen fill one 512-bit register of floats,
