@@ -76,10 +76,10 @@ private:
   static constexpr int BoxSplits = 3;
   /// Cells are often just as deep as what follows: somewhat more, or rounding would decide.
   static constexpr double Aside = 1.0 + 1e-6;
-  /// A box of a larger optical depth, or larger share of its distance, is measured at Gauss points:
-  /// two along each edge follow an exponential over a depth x to x^4 / 4320 and 1 / d^2 over a
-  /// share x of the distance to x^4 / 36; three go farther. Above the deepest nearly all light
-  /// stays in the first part of the box.
+  /// A box of a larger optical depth (times up to two at a large tolerance), or larger share of its
+  /// distance, is measured at Gauss points: two along each edge follow an exponential over a depth
+  /// x to x^4 / 4320 and 1 / d^2 over a share x of the distance to x^4 / 36; three go farther.
+  /// Above the deepest nearly all light stays in the first part of the box.
   static constexpr double FlatDepth = 0.25 * Aside;
   static constexpr double FlatRatio = 0.2 * Aside;
   static constexpr double TwoPointDepth = 1.2 * Aside;
@@ -376,6 +376,8 @@ private:
   const NearLights* Near_;
   /// Optical depth by which ways across a far light may depart from a straight course.
   double Bend_;
+  /// Optical depth of a box, of any band, above which it is measured at Gauss points.
+  double Flat_;
 };
 
 } // namespace smokevis

@@ -212,13 +212,13 @@ Spectrum DirectLight::BoxFluence(
   const bool deepest = LargestEdge(within) >= DeepestGauss;
   if (!close && !light.Weak)
   {
-    const bool thick =
-      std::max(depth, LargestEdge(entering)) >= (depth > FlatDepth ? DeepestGauss : TwoPointDepth);
+    const bool thick = std::max(depth, LargestEdge(entering)) >=
+                       (depth > this->Flat_ ? DeepestGauss : TwoPointDepth);
     if (thick)
     {
       return this->GradedFluence(light, centre, size);
     }
-    if (!deepest && depth < DeepestGauss && (depth > FlatDepth || edge > FlatRatio * distance))
+    if (!deepest && depth < DeepestGauss && (depth > this->Flat_ || edge > FlatRatio * distance))
     {
       return this->GaussFluence(light, centre, size);
     }

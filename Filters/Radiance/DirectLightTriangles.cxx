@@ -88,8 +88,7 @@ std::array<Spectrum, 2> DirectLight::TriangleIlluminance(
   return whole.Sum;
 }
 
-void DirectLight::AddPlace(
-  LitTriangle& whole, const Vec3& point, double weight, bool clear) const
+void DirectLight::AddPlace(LitTriangle& whole, const Vec3& point, double weight, bool clear) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(whole.Light);
   Receiver receiver{point, std::nullopt, clear};

@@ -185,8 +185,9 @@ bool DirectLight::UnevenIn(std::size_t light, const Medium::Block& block) const
   const std::array<std::array<int, 3>, 5> places = {{{last[0] / 2, last[1] / 2, last[2] / 2},
     {0, 0, 0}, {last[0], last[1], 0}, {last[0], 0, last[2]}, {0, last[1], last[2]}}};
   return std::any_of(places.begin(), places.end(),
-    [&](const std::array<int, 3>& place)
-    { return this->WaysAcross(light, smoke.CellCentre(smoke.Cell(block, place)), {}).has_value(); });
+    [&](const std::array<int, 3>& place) {
+      return this->WaysAcross(light, smoke.CellCentre(smoke.Cell(block, place)), {}).has_value();
+    });
 }
 
 Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluence) const
@@ -197,7 +198,9 @@ Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluen
   // In dense cells the mean is of what comes in through their faces, not of their centres; where
   // places in a cell have ways of their own, those are corrected already.
   const LightGroup& root = this->Scene_.Lights().Root(light.Index);
-  const bool own = !light.Far || (this->BehindBorder(light) && LargestEdge(size) * root.Law.Sharpness() > FlatRatio * root.Distance(centre));
+  const bool own =
+    !light.Far || (this->BehindBorder(light) &&
+                    LargestEdge(size) * root.Law.Sharpness() > FlatRatio * root.Distance(centre));
   if (own || !IsLit(fluence) || this->BoxDepth(light.Cell, size) >= FlatDepth)
   {
     return fluence;
