@@ -22,7 +22,8 @@ constexpr std::size_t Rays = 1024;
 constexpr std::size_t MostMemory = std::size_t{1} << 28;
 /// Most of a light's power that is made up for, and most that light is scaled by: what is off by
 /// more has another reason, such as a lamp of which few cells know, and is left.
-constexpr double MostChange = 0.04;
+constexpr double MostLack = 0.04;
+constexpr double MostChange = 0.1;
 /// How many times the error of light that is known from close by, as a share, that of the rest is
 /// taken to be.
 constexpr double ErrorRatio = 6.0;
@@ -101,9 +102,10 @@ void DirectBalance::AddToCell(
   Power& power = this->PowerOf(block, light);
   const NearLights& near = this->Scene_.Near();
   const int place = near.Place(cell);
-  if (place >= 0 && near.Find(place, light) >= 0)
+  if (const int own = place < 0 ? -1 : near.Find(place, light); own >= 0)
   {
-    Accumulate(power.Known, this->TakenIn(cell, fluence));
+    const bool exact = near.Cells()[place].Lights[own].Deposits;
+    Accumulate(exact ? power.Exact : power.Known, this->TakenIn(cell, fluence));
     return;
   }
   Accumulate(power.Scaled, this->TakenIn(cell, fluence));
@@ -169,15 +171,18 @@ std::vector<WorkItem> DirectBalance::MakeUp(
       const LightGroup& root = this->Scene_.Lights().Root(light);
       const double emitted = root.Law.UnitFlux() * root.Intensity[band];
       all += emitted;
+      double exact = 0.0;
       double known = 0.0;
       double rest = 0.0;
       for (std::size_t item = 0; item < this->Blocks_ + this->Parts_ + this->Patches_; ++item)
       {
-        known += this->PowerOf(item, light).Known[band];
-        rest += this->PowerOf(item, light).Scaled[band];
+        const Power& power = this->PowerOf(item, light);
+        exact += power.Exact[band];
+        known += power.Known[band];
+        rest += power.Scaled[band];
       }
-      const double lack = emitted - known - rest;
-      if (!this->Watches(light) || !(rest > 0.0) || !(std::abs(lack) < MostChange * emitted))
+      const double lack = emitted - exact - known - rest;
+      if (!this->Watches(light) || !(rest > 0.0) || !(std::abs(lack) < MostLack * emitted))
       {
         continue;
       }

@@ -20,7 +20,8 @@ class Team;
 /// come from a few points of each and are off in smoke that differs from cell to cell like noise,
 /// and at the edges of shadows: by up to 1 % of the power in all, 2 % of what comes from afar. Each
 /// light by itself is scaled to make up for that, so that the light of several still adds up; but
-/// not where it is known from close to the light, and by the less the more of it is.
+/// not where it is known from close to the light, and by the less the more of it is so by a few
+/// places in each cell.
 class DirectBalance
 {
 public:
@@ -50,10 +51,11 @@ private:
   {
     std::vector<float> Cells, Sides;
   };
-  /// Power that is taken up of a light in an item [lm].
+  /// Power that is taken up of a light in an item [lm]: as the light itself tells, as places close
+  /// to it do, and what is scaled.
   struct Power
   {
-    Spectrum Known{}, Scaled{};
+    Spectrum Exact{}, Known{}, Scaled{};
   };
 
   bool Closed(std::size_t light) const;

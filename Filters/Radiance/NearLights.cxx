@@ -28,6 +28,11 @@ constexpr double SmoothestLaw = 1.4;
 /// optical depth it is the light itself that tells what it leaves there.
 constexpr double TouchEdges = 0.9;
 constexpr double DepositDepth = 0.019;
+/// Where the smoke around a light is so uneven, that holds for all cells near to it: a few places
+/// in each miss what comes in through gaps between thick ones.
+constexpr double DepositUnevenness = 0.15;
+/// The same, of so many lights at most: more would take long, or too few rays of each.
+constexpr std::size_t MostDeposits = 32;
 
 /// Longest steps of lattices in edges of the largest cells: this over the smoke's unevenness, or
 /// the finest. Where that is 0.1, steps of an edge leave 8 % of the light unknown, a quarter of one
@@ -39,7 +44,7 @@ constexpr double FinestStep = 0.25;
 
 NearLights::NearLights(const Scene& scene)
     : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()),
-      Touched_(Fields_.size()), Deposited_(Fields_.size()), Bands_(scene.Bands())
+      DepositsIn_(Fields_.size()), Deposited_(Fields_.size()), Bands_(scene.Bands())
 {
   const Medium& smoke = scene.Smoke();
   const EmitterSet& lights = scene.Lights();
@@ -48,6 +53,7 @@ NearLights::NearLights(const Scene& scene)
     return;
   }
   this->Places_.assign(smoke.Cells(), -1);
+  std::vector<bool> uneven(this->Fields_.size());
   for (std::size_t light = 0; light < this->Fields_.size(); ++light)
   {
     const Surroundings around = this->FindCells(light);
@@ -55,6 +61,7 @@ NearLights::NearLights(const Scene& scene)
     const LightGroup& root = lights.Root(light);
     if (around.Reach > 0.0 && !root.Law.Measured() && root.Law.Sharpness() <= SmoothestLaw)
     {
+      uneven[light] = around.Unevenness > DepositUnevenness && uneven.size() <= MostDeposits;
       const double edge = around.Reach / NearEdges;
       this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, around.Reach,
         edge * std::max(FinestStep, StepOverUnevenness / around.Unevenness));
@@ -71,9 +78,10 @@ NearLights::NearLights(const Scene& scene)
         const LightGroup& root = lights.Root(light.Index);
         const double distance = root.Distance(smoke.CellCentre(cell.Index));
         light.Close = distance < CloseEdges * edge;
-        light.Touches = distance < TouchEdges * edge &&
-                        smoke.Extinction(cell.Index) * scene.LargestScale() * edge > DepositDepth &&
-                        smoke.OwnVolume(cell.Index) > 0.0;
+        light.Deposits =
+          (distance < TouchEdges * edge || uneven[light.Index]) &&
+          smoke.Extinction(cell.Index) * scene.LargestScale() * edge > DepositDepth &&
+          smoke.OwnVolume(cell.Index) > 0.0;
         cell.Close = cell.Close || light.Close;
       }
     });
@@ -92,9 +100,9 @@ NearLights::NearLights(const Scene& scene)
   {
     for (const Light& light : this->Cells_[cell].Lights)
     {
-      if (light.Touches)
+      if (light.Deposits)
       {
-        this->Touched_[light.Index].push_back(cell);
+        this->DepositsIn_[light.Index].push_back(cell);
       }
     }
   }
@@ -113,20 +121,20 @@ void NearLights::Deposit(std::size_t light) const
   tbb::collaborative_call_once(this->Deposited_[light],
     [&]
     {
-      const std::vector<std::size_t>& touched = this->Touched_[light];
-      if (touched.empty())
+      const std::vector<std::size_t>& places = this->DepositsIn_[light];
+      if (places.empty())
       {
         return;
       }
       std::vector<std::int64_t> cells;
-      for (const std::size_t cell : touched)
+      for (const std::size_t place : places)
       {
-        cells.push_back(this->Cells_[cell].Index);
+        cells.push_back(this->Cells_[place].Index);
       }
       const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, cells).Run();
-      for (std::size_t i = 0; i < touched.size(); ++i)
+      for (std::size_t i = 0; i < places.size(); ++i)
       {
-        this->Keep(this->MeanIndex(touched[i], this->Find(touched[i], light)), means[i]);
+        this->Keep(this->MeanIndex(places[i], this->Find(places[i], light)), means[i]);
       }
     });
 }
@@ -142,7 +150,7 @@ void NearLights::Keep(std::size_t index, const Spectrum& mean) const
 double NearLights::FindMean(std::size_t cell, std::size_t light, int band) const
 {
   const Light& near = this->Cells_[cell].Lights[light];
-  if (near.Touches)
+  if (near.Deposits)
   {
     this->Deposit(near.Index);
     return this->Means_[this->MeanIndex(cell, light) + band].load(std::memory_order_relaxed);

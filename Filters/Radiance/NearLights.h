@@ -29,8 +29,9 @@ public:
     bool Clear = false;
     /// Whether it is so close that its fluence varies much inside the cell.
     bool Close = false;
-    /// Whether its plate touches the cell, so that the light itself tells what it leaves there.
-    bool Touches = false;
+    /// Whether the light itself tells what it leaves there, for its plate touches the cell, or
+    /// the smoke around it is uneven.
+    bool Deposits = false;
   };
   struct Cell
   {
@@ -59,7 +60,7 @@ public:
 
   /// Place of a light among those near to a cell, or -1.
   int Find(std::size_t cell, std::size_t light) const;
-  /// Finds the means of a light over the cells that its plate touches, once.
+  /// Finds the means of a light over the cells of which it tells itself, once.
   void Deposit(std::size_t light) const;
   /// Calls take(mean) for all means over a cell as they are kept, NaN where they are not computed
   /// yet, and keeps what it makes of them.
@@ -97,8 +98,8 @@ private:
   std::vector<Cell> Cells_;
   std::vector<std::int32_t> Places_;
   std::vector<std::unique_ptr<NearField>> Fields_;
-  /// Cells that each light's plate touches, as places among the cells.
-  std::vector<std::vector<std::size_t>> Touched_;
+  /// Cells of which each light itself tells what it leaves there, as places among the cells.
+  std::vector<std::vector<std::size_t>> DepositsIn_;
   mutable std::vector<tbb::collaborative_once_flag> Deposited_;
   std::size_t Bands_;
   /// Lights of all cells before each.
