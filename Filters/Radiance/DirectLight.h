@@ -170,6 +170,8 @@ private:
     std::size_t light, const Vec3& point, const std::optional<double>& extinction) const;
   /// Whether they change across the plate as a parabola does.
   bool Smooth(const Across& ways) const;
+  /// Whether they differ from place to place as in smoke like noise: the few tell of all.
+  bool Scattered(const Across& ways) const;
   /// A part of a light, and the optical depth of the way to its middle, at 633 nm.
   struct DimmedPart
   {
@@ -289,8 +291,6 @@ private:
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
     const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
-  /// Whether some of the cells of a block that are looked at have such ways.
-  bool UnevenIn(std::size_t light, const Medium::Block& block) const;
   /// Mean over the light's cell, corrected where smoke dims the light unevenly.
   /// @param fluence the mean by one way from each place to the light
   Spectrum UnevenFluence(const BoxLight& light, const Spectrum& fluence) const;
@@ -321,6 +321,9 @@ private:
     /// Whether what is told may be off by more than differences from cell to cell would bear.
     bool Rough = false;
   };
+  /// Whether smoke may dim a light unevenly in a block, as some of its cells tell where few ways
+  /// tell of all.
+  bool UnevenIn(std::size_t light, const Medium::Block& block, const BlockWays& told) const;
   /// That bound; infinite where there is none.
   /// @param asked the cells that count, of each cell of the block, x fastest
   /// @param extinction smallest mean along the ways from these [1/m]

@@ -262,8 +262,7 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
   const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
     ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
-  // Where a few ways tell of all to the light's centre, they tell of those to its edges.
-  const bool even = weak || (ways.Told > 0 && !this->UnevenIn(light, block));
+  const bool even = weak || !this->UnevenIn(light, block, ways);
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {

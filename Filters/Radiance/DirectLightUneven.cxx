@@ -23,6 +23,10 @@ constexpr double MostBend = 0.2;
 constexpr double SpanOverBend = 20.0;
 /// The same of what a parabola through them follows: so many times as much.
 constexpr double SmoothTimes = 2.0;
+/// In smoke like noise ways differ by so many times this at most, and along one edge no less than
+/// by this share of what they do along the other.
+constexpr double ScatteredTimes = 10.0;
+constexpr double ScatteredShare = 1.0 / 3.0;
 /// Optical depth over the plate below which two strips count together, and along its strips below
 /// which their middles stand for them.
 constexpr double PairedSpan = 3.0;
@@ -92,6 +96,15 @@ bool DirectLight::Smooth(const Across& ways) const
   return within(0, 2) && within(1, 3);
 }
 
+bool DirectLight::Scattered(const Across& ways) const
+{
+  const auto [least, most] = std::minmax_element(ways.Corners.begin(), ways.Corners.end());
+  const double span = std::max(*most, ways.Centre) - std::min(*least, ways.Centre);
+  const auto [less, more] = std::minmax(ways.Along(), ways.Up());
+  return less > ScatteredShare * more &&
+         span * this->Scene_.LargestScale() < ScatteredTimes * this->Bend_;
+}
+
 std::vector<DirectLight::DimmedPart> DirectLight::PartsAcross(
   std::size_t light, const Vec3& point, const Across& ways, const std::optional<int>& line) const
 {
@@ -130,6 +143,20 @@ std::vector<DirectLight::DimmedPart> DirectLight::PartsAcross(
 Spectrum DirectLight::Unevenness(std::size_t light, const Vec3& point, const Across& ways) const
 {
   Spectrum ratio{};
+  if (this->Scattered(ways))
+  {
+    for (int band = 0; band < this->Scene_.Bands(); ++band)
+    {
+      const double extinction = this->Scene_.ExtinctionScale(band);
+      double sum = 1.0;
+      for (const double depth : ways.Corners)
+      {
+        sum += std::exp(-extinction * (depth - ways.Centre));
+      }
+      ratio[band] = sum / (1.0 + static_cast<double>(ways.Corners.size()));
+    }
+    return ratio;
+  }
   const auto add = [&](const std::optional<int>& line, double weight)
   {
     const std::vector<DimmedPart> parts = this->PartsAcross(light, point, ways, line);
@@ -177,8 +204,18 @@ void DirectLight::DimUnevenly(std::size_t light, const Receiver& receiver, Spect
   }
 }
 
-bool DirectLight::UnevenIn(std::size_t light, const Medium::Block& block) const
+bool DirectLight::UnevenIn(
+  std::size_t light, const Medium::Block& block, const BlockWays& told) const
 {
+  // A weak light may be off by as much of the whole as the strongest.
+  if (told.Share * MostBend < this->Bend_)
+  {
+    return false;
+  }
+  if (told.Told == 0)
+  {
+    return true;
+  }
   const Medium& smoke = this->Scene_.Smoke();
   // Its middle, and corners of which no two share an edge.
   const std::array<int, 3> last = {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1};
@@ -211,7 +248,7 @@ Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluen
     return fluence;
   }
   Spectrum mean{};
-  if (this->Smooth(*ways))
+  if (this->Smooth(*ways) || this->Scattered(*ways))
   {
     mean = this->Unevenness(light.Index, centre, *ways);
     std::transform(mean.begin(), mean.end(), fluence.begin(), mean.begin(), std::multiplies<>());

@@ -63,11 +63,11 @@ TEST(Balance, SmokeLikeNoise)
   for (const int room : {13, 16, 18})
   {
     const std::string name = "random room " + std::to_string(room);
-    CheckBalance(name, Solved(scenes::MakeRandomRoom(room).Description, 0.1), 0.005);
+    CheckBalance(name, Solved(scenes::MakeRandomRoom(room).Description, 0.1), 0.01);
     for (const double factor : {4.0, 16.0})
     {
       CheckBalance(name + ", thicker by " + std::to_string(static_cast<int>(factor)),
-        Solved(ThickNoise(room, factor), 0.1), 0.005);
+        Solved(ThickNoise(room, factor), 0.1), 0.01);
     }
   }
 }
