@@ -100,7 +100,7 @@ bool DirectLight::Scattered(const Across& ways) const
 {
   const auto [least, most] = std::minmax_element(ways.Corners.begin(), ways.Corners.end());
   const double span = std::max(*most, ways.Centre) - std::min(*least, ways.Centre);
-  const auto [less, more] = std::minmax(ways.Along(), ways.Up());
+  const auto [less, more] = std::minmax({ways.Along(), ways.Up()});
   return less > ScatteredShare * more &&
          span * this->Scene_.LargestScale() < ScatteredTimes * this->Bend_;
 }
