@@ -71,7 +71,10 @@ private:
   void AddVeils();
   void FillMeans();
   /// Finds contrasts of what the blocks show, and the mean.
-  void FillContrast();
+  /// @return the sums over their pixels
+  Sums FillContrast();
+  /// Finds what uneven smoke leaves unknown of these contrasts.
+  void FillDivisionErrors(const Sums& sums);
   /// Adds the veils, and finds contrasts and all that depends on them.
   void FillResult();
 
@@ -304,15 +307,12 @@ void SignLook::FillMeans()
   result.MeanLuminanceError = StandardError(mean);
 }
 
-void SignLook::FillContrast()
+Sums SignLook::FillContrast()
 {
   Sums sums;
-  DivisionError division;
   for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
   {
-    const SignSight::Part& part = this->Sight_.Parts()[index];
-    AddPixels(part.Pattern, this->Blocks_[index], sums);
-    division.Add(part.Pattern, this->Blocks_[index], part.ZoneOf, this->Unknown_[index]);
+    AddPixels(this->Sight_.Parts()[index].Pattern, this->Blocks_[index], sums);
   }
   SignMeasurement& result = this->Result_;
   const ResampledMoments resampled = sums.Get();
@@ -320,16 +320,28 @@ void SignLook::FillContrast()
   Jackknife(resampled, 0.0, result.Contrast, result.ContrastError);
   Jackknife(resampled, this->Observer_.DarkLuminance, result.PerceivedContrast,
     result.PerceivedContrastError);
-  result.ContrastDivisionError = division.OfRatio(resampled[0], sums.Weight, 0.0);
-  result.PerceivedContrastDivisionError =
-    division.OfRatio(resampled[0], sums.Weight, this->Observer_.DarkLuminance);
+  return sums;
+}
+
+void SignLook::FillDivisionErrors(const Sums& sums)
+{
+  DivisionError division;
+  for (std::size_t index = 0; index < this->Blocks_.size(); ++index)
+  {
+    const SignSight::Part& part = this->Sight_.Parts()[index];
+    division.Add(part.Pattern, this->Blocks_[index], part.ZoneOf, this->Unknown_[index]);
+  }
+  const Moments moments = sums.Get()[0];
+  this->Result_.ContrastDivisionError = division.OfRatio(moments, sums.Weight, 0.0);
+  this->Result_.PerceivedContrastDivisionError =
+    division.OfRatio(moments, sums.Weight, this->Observer_.DarkLuminance);
 }
 
 void SignLook::FillResult()
 {
   this->AddVeils();
   this->FillMeans();
-  this->FillContrast();
+  this->FillDivisionErrors(this->FillContrast());
 }
 
 std::optional<SignMeasurement> SignLook::Measure(double cutOff)

@@ -43,6 +43,11 @@ double TwiceProduct(const PatternBlock& block, const PatternVector& all, const P
   return sum;
 }
 
+double Squared(double value)
+{
+  return value * value;
+}
+
 } // namespace
 
 void DivisionError::Add(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks,
@@ -103,8 +108,9 @@ double DivisionError::OfRatio(const Moments& moments, double seen, double dark) 
   double variance = 0.0;
   for (const Change& change : this->Changes_)
   {
-    variance = std::hypot(variance, ofVariance(change));
+    variance += Squared(ofVariance(change));
   }
+  variance = std::sqrt(variance);
   const double below = moments.Mean + dark;
   // A plate that is even by chance has no derivative.
   const double deviation = std::max(moments.Deviation, std::sqrt(variance));
@@ -116,9 +122,9 @@ double DivisionError::OfRatio(const Moments& moments, double seen, double dark) 
   for (const Change& change : this->Changes_)
   {
     const double mean = change.First / seen;
-    error = std::hypot(error, ofVariance(change) / deviation - moments.Deviation * mean / below);
+    error += Squared(ofVariance(change) / deviation - moments.Deviation * mean / below);
   }
-  return error / below;
+  return std::sqrt(error) / below;
 }
 
 } // namespace smokevis

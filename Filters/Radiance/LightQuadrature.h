@@ -41,24 +41,46 @@ public:
   /// The place at a share of the angle between two distances.
   Place At(double from, double to, double share) const
   {
-    const double low = this->Angle(from);
-    return this->Between(low, this->Angle(to), from, to, share);
+    const double low = std::atan(this->Tangent(from));
+    const double span = std::atan(this->Tangent(to)) - low;
+    const double tangent = std::tan(low + span * share);
+    return {this->Distance(tangent, from, to), span * this->Width_ * (1.0 + tangent * tangent)};
   }
   /// Calls visit(distance along the ray, step) for the places of a rule between two distances.
+  /// @param span angle between them [rad]
   template <class Visit>
-  void ForEach(const GaussRule& rule, double from, double to, Visit&& visit) const
+  void ForEach(const GaussRule& rule, double from, double to, double span, Visit&& visit) const
   {
-    const double low = this->Angle(from);
-    const double high = this->Angle(to);
-    for (int i = 0; i < rule.Count; ++i)
+    // Tangents of sums: the middle of the angle has that of the sum of its ends' directions, and
+    // places lie as far before it as behind.
+    const double low = this->Tangent(from);
+    const double high = this->Tangent(to);
+    const double lowLength = std::sqrt(1.0 + low * low);
+    const double highLength = std::sqrt(1.0 + high * high);
+    const double middle = (low * highLength + high * lowLength) / (lowLength + highLength);
+    for (int i = 0; i < rule.Count; i += 2)
     {
-      const Place place = this->Between(low, high, from, to, rule.Nodes[i]);
-      visit(place.Distance, rule.Weights[i] * place.Step);
+      const bool alone = i + 1 == rule.Count;
+      const double off = alone ? 0.0 : std::tan((0.5 - rule.Nodes[i / 2]) * span);
+      const auto take = [&](double change)
+      {
+        const double tangent = (middle + change) / (1.0 - middle * change);
+        visit(this->Distance(tangent, from, to),
+          rule.Weights[i / 2] * span * this->Width_ * (1.0 + tangent * tangent));
+      };
+      take(-off);
+      if (!alone)
+      {
+        take(off);
+      }
     }
   }
-  double Angle(double distance) const
+  /// Angle between two distances.
+  double Span(double from, double to) const
   {
-    return std::atan((distance - this->Middle_) / this->Width_);
+    const double low = this->Tangent(from);
+    const double high = this->Tangent(to);
+    return std::atan2(high - low, 1.0 + low * high);
   }
   /// Whether a part of the ray stays farther from the light's centre than some distance.
   bool Beyond(double distance, double from, double to) const
@@ -68,11 +90,10 @@ public:
   }
 
 private:
-  Place Between(double low, double high, double from, double to, double share) const
+  double Tangent(double distance) const { return (distance - this->Middle_) / this->Width_; }
+  double Distance(double tangent, double from, double to) const
   {
-    const double tangent = std::tan(low + (high - low) * share);
-    return {std::clamp(this->Middle_ + this->Width_ * tangent, from, to),
-      (high - low) * this->Width_ * (1.0 + tangent * tangent)};
+    return std::clamp(this->Middle_ + this->Width_ * tangent, from, to);
   }
 
   double Middle_, Aside_, Width_;
@@ -159,7 +180,7 @@ private:
     const bool far = edges >= this->Light_.Radius &&
                      this->Places_.Beyond(FarRadii * this->Light_.Radius, begin, end);
     const double unit = far ? 1.0 : edges;
-    const double size = far ? this->Places_.Angle(end) - this->Places_.Angle(begin) : length;
+    const double size = far ? this->Places_.Span(begin, end) : length;
     const auto within = [&](const PartLimit& limit)
     {
       return this->Sharpness_ * size <= unit * (far ? limit.Angle : limit.Length) &&
@@ -174,7 +195,7 @@ private:
     const GaussRule& rule = !within(TwoPointPart)  ? FourPoints
                             : within(OnePointPart) ? OnePoint
                                                    : TwoPoints;
-    this->Places_.ForEach(rule, begin, end, visit);
+    this->Places_.ForEach(rule, begin, end, far ? size : this->Places_.Span(begin, end), visit);
   }
 
   const LightGroup& Light_;
