@@ -165,13 +165,11 @@ void MultipleSolve::Gather(
   {
     return;
   }
-  const std::vector<PowerBalance::Powers> powers = balance.Of(sweeps.States());
-  if (PowerBalance::Closed(powers))
-  {
-    DoubleLanes more = balance.TakenBySurfaces(this->Field_, band);
-    std::transform(more.begin(), more.end(), before.begin(), more.begin(), std::minus<>());
-    balance.Restore(powers, more, this->Field_, band);
-  }
+  // What plates take up beyond what lines brought them does not go elsewhere, as it does along
+  // lines.
+  DoubleLanes more = balance.TakenBySurfaces(this->Field_, band);
+  std::transform(more.begin(), more.end(), before.begin(), more.begin(), std::minus<>());
+  balance.Restore(balance.Of(sweeps.States()), more, this->Field_, band);
 }
 
 void MultipleSolve::Tell(

@@ -60,12 +60,11 @@ public:
   /// clearly not what is emitted, or no light leaves the scene.
   void ScaleCompleted(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
 
-  /// Whether no light leaves the scene, but for what rounding lets through corners.
-  static bool Closed(const std::vector<Powers>& powers);
   /// What surfaces take up and absorb of the light that is kept in a field, which is not direct, a
   /// value a batch [lm].
   DoubleLanes TakenBySurfaces(const LightField& field, int band) const;
-  /// Scales all that is kept so that as much is lost as was before that changed.
+  /// Scales all that is kept so that as much is lost as was before that changed, on surfaces, in
+  /// smoke or out of the scene.
   /// @param powers of the sums that were kept
   /// @param more lost than then [lm]
   void Restore(
@@ -82,6 +81,8 @@ private:
     double Spread = 0.0, OwnSpread = 0.0;
   };
 
+  /// Whether no light leaves the scene, but for what rounding lets through corners.
+  static bool Closed(const std::vector<Powers>& powers);
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   double ScaleFor(double loss) const;
   /// @param share of the spread of the batches below which each is scaled for itself

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace
 {
@@ -110,6 +111,61 @@ TEST(Balance, OpenCloud)
   EXPECT_LT(error, 1e-3 * emitted);
   EXPECT_GT(area * onWalls.Mean, 0.3 * emitted);
   report::Relative("cloud", emitted, smoke.Mean + surfaces.Mean + area * onWalls.Mean, 1e-3, error);
+}
+
+/// A room of bright walls in few patches, and a sign that leans over its floor: half of what that
+/// sends on comes back to it.
+/// @param height of the sign's centre [m]
+SceneDescription LeaningSign(double height)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.6;
+  const Vec3 upper(4.5, 3.6, 2.0);
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {9, 6, 5}, 0.01)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 1.2, 0.95);
+  scene.Emitters = scenes::Barcode(
+    {1.6, 0.8, height}, {-0.67, -0.67, -0.32}, {-0.2, -0.2, 0.96}, 0.3, 0.5, 3, 6.0, 0, 0.1);
+  return scene;
+}
+
+// What is gathered for a plate is the light of places right before it, where lines have the mean of
+// a patch. It is taken off what lines carry elsewhere, also where a room has a leak: that below the
+// sign's foot lets a twelfth of its light out. The light at its plate's own height stays as patches
+// of 1.2 m have it.
+TEST(Balance, SignThatLeansOverALargePatch)
+{
+  report::Head("Mean fluence in a room with a sign that leans over its floor [lx]");
+  for (const auto& [name, height] :
+    {std::pair{"above the floor", 0.26}, std::pair{"its foot in the floor", 0.2}})
+  {
+    const Solved solved(LeaningSign(height));
+    const Medium& smoke = solved.TheScene->Smoke();
+    // Without those that the plate cuts, which have a value for each part.
+    std::vector<std::int64_t> cells;
+    for (std::int64_t cell = 0; cell < 9 * 6 * 5; ++cell)
+    {
+      if (!smoke.Parts().Find(cell))
+      {
+        cells.push_back(cell);
+      }
+    }
+    EXPECT_LT(cells.size(), 9U * 6U * 5U);
+    const Estimate fluence = solved.Fluence(cells);
+    const Estimate truth =
+      ReferenceIntegrator(*solved.TheScene)
+        .MeanFluence(
+          [&](Pcg32& random)
+          {
+            const double number = random.Uniform() * static_cast<double>(cells.size());
+            const Box box = smoke.BoxOf(cells[static_cast<std::size_t>(number)]);
+            const double x = random.Uniform();
+            const double y = random.Uniform();
+            return box.Lower + Vec3(x, y, random.Uniform()) * box.Size();
+          },
+          100000, 3);
+    report::Relative(name, truth.Mean, fluence.Mean, 0.015,
+      std::hypot(truth.StandardError, fluence.StandardError));
+  }
 }
 
 /// Two squares in a room with smoke and a block half between them; one emits.
