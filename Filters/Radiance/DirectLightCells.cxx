@@ -14,8 +14,10 @@ namespace smokevis
 namespace
 {
 
-/// Ways to a light that tell how much of it is hidden from a cell near to it, which gets much.
+/// Ways to a light that tell how much of it is hidden from a cell near to it, which gets much; and
+/// whether anything is: what stands before its faces alone hides nothing from corners and centre.
 constexpr std::uint64_t NearShadowWays = 256;
+constexpr std::uint64_t ClearWays = 64;
 
 } // namespace
 
@@ -40,7 +42,8 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
       return false;
     }
   }
-  return this->Sight_.OfAll(root, centre) == Sight::Whole;
+  return this->Sight_.OfAll(root, centre) == Sight::Whole &&
+         this->ShownShare(light, cell, ClearWays) == 1.0;
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const

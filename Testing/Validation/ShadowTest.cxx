@@ -176,6 +176,49 @@ TEST(Shadows, PoleAndHugePlate)
     "plate of 36 m", solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.08);
 }
 
+/// A room of cells as wide as itself, with a lamp and, where it is wanted, a block before the middle
+/// of theirs.
+SceneDescription WideCells(bool block)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.0;
+  const Vec3 size(2.6, 1.8, 2.5);
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), size, {1, 5, 2}, 0.003)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), size, 1.3, 0.0);
+  scene.Emitters = {scenes::Plate({0.95, 0.06, 2.3}, {0, 0, -1}, {1, 0, 0}, 0.1, 0.1, 100.0)};
+  if (block)
+  {
+    scenes::AddBlock(scene.Surfaces, {0.75, 0.35, 1.65}, {1.35, 0.85, 1.95}, 0.6, 0.0);
+  }
+  return scene;
+}
+
+// A block that hides nearly half of a lamp's light from a cell, though neither from its corners nor
+// from its centre.
+TEST(Shadows, BlockNarrowerThanACell)
+{
+  report::Head("Fluence in cells behind a block narrower than they are [lx]");
+  const Solved hidden(WideCells(true), 0.01);
+  const Solved clear(WideCells(false), 0.01);
+  const ReferenceIntegrator reference(*hidden.TheScene);
+  for (const double y : {1.25, 1.6})
+  {
+    const Vec3 place(1.3, y, 1.9);
+    const Box box = hidden.TheScene->Smoke().BoxOf(hidden.TheScene->Smoke().Locate(place));
+    const Estimate truth = reference.MeanFluence(
+      [&box](Pcg32& random)
+      {
+        const double u = random.Uniform();
+        const double v = random.Uniform();
+        return box.Lower + Vec3(u, v, random.Uniform()) * box.Size();
+      },
+      40000, 1);
+    // As the cells that the edge of a shadow crosses.
+    report::Absolute("at y = " + std::to_string(y).substr(0, 4), truth.Mean,
+      hidden.Fluence(place).Mean, 0.02 * clear.Fluence(place).Mean, truth.StandardError);
+  }
+}
+
 // In the cleft right below a beam cells are too coarse for what is seen of the lamp at either side.
 TEST(Shadows, CleftBelowABeam)
 {
