@@ -16,8 +16,10 @@ namespace
 
 /// Ways to a light that tell how much of it is hidden from a cell near to it, which gets much; and
 /// whether anything is: what stands before its faces alone hides nothing from corners and centre.
+/// Less than a share hidden is none, since single ways may graze the wall behind a plate.
 constexpr std::uint64_t NearShadowWays = 256;
 constexpr std::uint64_t ClearWays = 64;
+constexpr double LeastHidden = 0.05;
 
 } // namespace
 
@@ -43,7 +45,7 @@ bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
     }
   }
   return this->Sight_.OfAll(root, centre) == Sight::Whole &&
-         this->ShownShare(light, cell, ClearWays) == 1.0;
+         this->ShownShare(light, cell, ClearWays) > 1.0 - LeastHidden;
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const

@@ -3,10 +3,12 @@
 #include "Contrast.h"
 #include "DirectField.h"
 #include "LineSweep.h"
+#include "NearLights.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -144,6 +146,50 @@ TEST(Linearity, Superposition)
   const Estimate b = lights.Lamp->Fluence(cells);
   report::Relative("mean fluence", a.Mean + b.Mean, sum.Mean, 1e-3,
     std::hypot(std::hypot(a.StandardError, b.StandardError), sum.StandardError));
+}
+
+// So do the direct parts of eight lamps, in the cells around them as well, of which their own rays
+// tell: none draws fewer because there are others. A lamp that is weak beside the others counts more
+// roughly in a block of cells.
+TEST(Linearity, SuperpositionOfEightLamps)
+{
+  report::Head("Superposition of eight lamps in smoke like noise");
+  SceneDescription all = scenes::FurnishedRoom(0.6, 2.0);
+  all.Emitters.clear();
+  for (int lamp = 0; lamp < 8; ++lamp)
+  {
+    all.Emitters.push_back(scenes::Plate(
+      {0.5 + lamp % 4, 0.5 + 1.5 * (lamp / 4), 2.0}, {0, 0, -1}, {1, 0, 0}, 0.2, 0.2, 100.0));
+  }
+  const Solved together(all, 0.1);
+  const std::vector<float>& fluence = together.Field->DirectFluence;
+  std::vector<double> sum(fluence.size());
+  for (std::size_t lamp = 0; lamp < all.Emitters.size(); ++lamp)
+  {
+    SceneDescription one = all;
+    for (std::size_t other = 0; other < all.Emitters.size(); ++other)
+    {
+      one.Emitters[other].Luminance[0] *= other == lamp ? 1.0 : 0.0;
+    }
+    const Solved alone(one, 0.1);
+    std::transform(sum.begin(), sum.end(), alone.Field->DirectFluence.begin(), sum.begin(),
+      [](double before, float own) { return before + own; });
+  }
+  std::vector<std::size_t> near;
+  for (const NearLights::Cell& cell : together.TheScene->Near().Cells())
+  {
+    near.push_back(static_cast<std::size_t>(cell.Index));
+  }
+  const auto largest = [&](const std::vector<std::size_t>& cells)
+  {
+    return LargestDifference(
+      cells.size(), 0.0, [&](std::size_t i) { return static_cast<double>(fluence[cells[i]]); },
+      [&](std::size_t i) { return sum[cells[i]]; });
+  };
+  std::vector<std::size_t> cells(sum.size());
+  std::iota(cells.begin(), cells.end(), std::size_t{0});
+  report::Absolute("cells near to lamps", 0.0, largest(near), 5e-4);
+  report::Absolute("all cells", 0.0, largest(cells), 5e-3);
 }
 
 /// What some sweeps along the same lines find, before sources follow what they found.
