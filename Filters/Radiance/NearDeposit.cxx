@@ -16,15 +16,13 @@ namespace smokevis
 namespace
 {
 
-/// Rays of a light for each cell, the least and the most in all, and the least of a leaf. 32768 of
-/// a sign of 0.4 m that touches 72 cells of 0.1 m know its fluence over each to about half a
-/// percent, and all of it exactly. They do not depend on other lights, so that light adds up.
-constexpr double RaysACell = 455.0;
+/// Rays of all lights, the least and the most of a light, and the least of a leaf. 32768 of a sign
+/// of 0.4 m know its fluence over a cell of 0.1 m to about half a percent, and all of it exactly;
+/// up to sixteen lights have as many each, so that what they leave adds up.
+constexpr double Rays = 524288.0;
 constexpr double FewestOfLight = 4096.0;
 constexpr double MostOfLight = 32768.0;
 constexpr double FewestOfLeaf = 64.0;
-/// Counts that come out whole but for rounding, also far from the origin, are whole.
-constexpr double Rounding = 1e-3;
 /// Rays are followed in so many parts, whose sums are added in their order.
 constexpr std::uint64_t Parts = 8;
 constexpr std::uint64_t Key = 0x2ea7de9051;
@@ -127,8 +125,8 @@ void NearDeposit::Follow(const Ray& ray, std::vector<Spectrum>& sums) const
 std::vector<Spectrum> NearDeposit::Run() const
 {
   const std::vector<LightGroup>& groups = this->Scene_.Lights().Groups();
-  const double rays = std::clamp(
-    RaysACell * static_cast<double>(this->Cells_.size()), FewestOfLight, MostOfLight);
+  const auto lights = static_cast<double>(this->Scene_.Lights().Lights().size());
+  const double rays = std::clamp(Rays / lights, FewestOfLight, MostOfLight);
   double intensity = 0.0;
   for (const int leaf : this->Leaves_)
   {
@@ -142,8 +140,7 @@ std::vector<Spectrum> NearDeposit::Run() const
       for (std::size_t leaf = 0; leaf < this->Leaves_.size(); ++leaf)
       {
         const double share = Brightest(groups[this->Leaves_[leaf]].Intensity) / intensity;
-        const auto count =
-          static_cast<std::uint64_t>(std::ceil(std::max(FewestOfLeaf, rays * share - Rounding)));
+        const auto count = static_cast<std::uint64_t>(std::max(FewestOfLeaf, rays * share));
         for (std::uint64_t ray = part; ray < count; ray += Parts)
         {
           this->Follow(this->Draw(leaf, ray, count), parts[part]);

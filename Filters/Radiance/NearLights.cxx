@@ -31,7 +31,7 @@ constexpr double DepositDepth = 0.019;
 /// Where the smoke around a light is so uneven, that holds for all cells near to it: a few places
 /// in each miss what comes in through gaps between thick ones.
 constexpr double DepositUnevenness = 0.15;
-/// The same, of so many lights at most: more would take long.
+/// The same, of so many lights at most: more would take long, or too few rays of each.
 constexpr std::size_t MostDeposits = 32;
 
 /// Longest steps of lattices in edges of the largest cells: this over the smoke's unevenness, or

@@ -149,8 +149,8 @@ TEST(Linearity, Superposition)
 }
 
 // So do the direct parts of eight lamps, in the cells around them as well, of which their own rays
-// tell: none draws fewer because there are others. A lamp that is weak beside the others counts more
-// roughly in a block of cells.
+// tell: none of so many draws fewer because there are others. A lamp that is weak beside the others
+// counts more roughly in a block of cells.
 TEST(Linearity, SuperpositionOfEightLamps)
 {
   report::Head("Superposition of eight lamps in smoke like noise");
