@@ -176,8 +176,8 @@ TEST(Shadows, PoleAndHugePlate)
     "plate of 36 m", solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.08);
 }
 
-/// A room of cells as wide as itself, with a lamp and, where it is wanted, a block before the middle
-/// of theirs.
+/// A room of cells as wide as itself, with a lamp and, where it is wanted, a block before the
+/// middle of theirs.
 SceneDescription WideCells(bool block)
 {
   SceneDescription scene;
