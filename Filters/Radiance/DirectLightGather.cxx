@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace smokevis
 {
@@ -37,9 +36,6 @@ constexpr double CutLeafRatio = 0.3;
 constexpr double CutRatio = 0.02;
 /// Optical depth across a leaf below which its transmittance is known however close it is.
 constexpr double EvenDepth = 0.04;
-/// The same below which that to its middle tells it: means over it differ from that by a fifth of
-/// this at most, since ways to its edge are longer by r^2 / 2d.
-constexpr double ClearDepth = 0.004;
 /// The same before a surface: close to the leaf it gets most from what is closest.
 constexpr double EvenReceiverDepth = 0.01;
 /// Optical depth across the radius of a group above which its light does not go smoothly enough for
@@ -129,8 +125,8 @@ void DirectLight::AddLeaf(
   // Two points an edge follow what changes little, and more of it from afar: their error goes with
   // the square of the leaf's size over its distance.
   const double steep = std::min(1.0, leaf.Radius / (LeafRatio * toCentre));
-  const double change = leaf.Law == EmissionLaw() ? steep * this->ChangeOver(leaf, receiver)
-                                                  : std::numeric_limits<double>::infinity();
+  const bool thin =
+    leaf.Law == EmissionLaw() && steep * this->ChangeOver(leaf, receiver) < EvenDepth;
   double weights = 0.0;
   Spectrum weighted{};
   const auto add = [&](double u, double v, double share, bool seen)
@@ -166,11 +162,7 @@ void DirectLight::AddLeaf(
       add(places[i].x, places[i].y, 1.0, seen[i]);
     }
   }
-  else if (change < ClearDepth)
-  {
-    add(0.5, 0.5, 1.0, true);
-  }
-  else if (few || change < EvenDepth)
+  else if (few || thin)
   {
     for (const double u : Nodes2)
     {

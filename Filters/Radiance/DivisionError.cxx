@@ -43,11 +43,6 @@ double TwiceProduct(const PatternBlock& block, const PatternVector& all, const P
   return sum;
 }
 
-double Squared(double value)
-{
-  return value * value;
-}
-
 } // namespace
 
 void DivisionError::Add(const PlatePattern& pattern, const std::vector<SeenBlock>& blocks,
@@ -108,7 +103,8 @@ double DivisionError::OfRatio(const Moments& moments, double seen, double dark) 
   double variance = 0.0;
   for (const Change& change : this->Changes_)
   {
-    variance += Squared(ofVariance(change));
+    const double own = ofVariance(change);
+    variance += own * own;
   }
   variance = std::sqrt(variance);
   const double below = moments.Mean + dark;
@@ -122,7 +118,8 @@ double DivisionError::OfRatio(const Moments& moments, double seen, double dark) 
   for (const Change& change : this->Changes_)
   {
     const double mean = change.First / seen;
-    error += Squared(ofVariance(change) / deviation - moments.Deviation * mean / below);
+    const double own = ofVariance(change) / deviation - moments.Deviation * mean / below;
+    error += own * own;
   }
   return std::sqrt(error) / below;
 }

@@ -149,8 +149,9 @@ TEST(Linearity, Superposition)
 }
 
 // So do the direct parts of eight lamps, in the cells around them as well, of which their own rays
-// tell: none of so many draws fewer because there are others. A lamp that is weak beside the others
-// counts more roughly in a block of cells.
+// tell: none of so many draws fewer because there are others. A lamp that has less than a 20th of
+// an eighth of the light somewhere is known there to some percent of itself, which for seven of
+// them makes 0.3 % of all.
 TEST(Linearity, SuperpositionOfEightLamps)
 {
   report::Head("Superposition of eight lamps in smoke like noise");
@@ -189,7 +190,7 @@ TEST(Linearity, SuperpositionOfEightLamps)
   std::vector<std::size_t> cells(sum.size());
   std::iota(cells.begin(), cells.end(), std::size_t{0});
   report::Absolute("cells near to lamps", 0.0, largest(near), 5e-4);
-  report::Absolute("all cells", 0.0, largest(cells), 5e-3);
+  report::Absolute("all cells", 0.0, largest(cells), 3e-3);
 }
 
 /// What some sweeps along the same lines find, before sources follow what they found.

@@ -61,6 +61,14 @@ std::uint32_t Pcg32::Next()
 }
 
 //--------------------------------------------------------------------------------------------------
+Vec3 PlaceIn(const Box& box, Pcg32& random)
+{
+  const double x = random.Uniform();
+  const double y = random.Uniform();
+  return box.Lower + Vec3(x, y, random.Uniform()) * box.Size();
+}
+
+//--------------------------------------------------------------------------------------------------
 ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, int band)
     : Scene_(&scene), Band_(band), Scale_(scene.ExtinctionScale(band))
 {

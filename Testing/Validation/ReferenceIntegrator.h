@@ -29,6 +29,9 @@ private:
   std::uint64_t Increment_;
 };
 
+/// A place in a box, evenly over its volume.
+Vec3 PlaceIn(const Box& box, Pcg32& random);
+
 /// A Monte Carlo result.
 struct Estimate
 {

@@ -69,13 +69,8 @@ double AmissInRow(const Solved& solved, double y, double z, double from, double 
   {
     const std::int64_t cell = smoke.Locate({x, y, z});
     const Box box = smoke.BoxOf(cell);
-    const auto draw = [&](Pcg32& random)
-    {
-      const double u = random.Uniform();
-      const double v = random.Uniform();
-      return box.Lower + Vec3(u, v, random.Uniform()) * box.Size();
-    };
-    const double expected = reference.MeanFluence(draw, 40000, 1).Mean;
+    const double expected =
+      reference.MeanFluence([&box](Pcg32& random) { return PlaceIn(box, random); }, 40000, 1).Mean;
     all += expected;
     amiss += std::abs(solved.Fluence(Vec3(x, y, z)).Mean - expected);
   }
@@ -205,14 +200,8 @@ TEST(Shadows, BlockNarrowerThanACell)
   {
     const Vec3 place(1.3, y, 1.9);
     const Box box = hidden.TheScene->Smoke().BoxOf(hidden.TheScene->Smoke().Locate(place));
-    const Estimate truth = reference.MeanFluence(
-      [&box](Pcg32& random)
-      {
-        const double u = random.Uniform();
-        const double v = random.Uniform();
-        return box.Lower + Vec3(u, v, random.Uniform()) * box.Size();
-      },
-      40000, 1);
+    const Estimate truth =
+      reference.MeanFluence([&box](Pcg32& random) { return PlaceIn(box, random); }, 40000, 1);
     // As the cells that the edge of a shadow crosses.
     report::Absolute("at y = " + std::to_string(y).substr(0, 4), truth.Mean,
       hidden.Fluence(place).Mean, 0.02 * clear.Fluence(place).Mean, truth.StandardError);
