@@ -285,33 +285,50 @@ double NearField::Fluence(const Vec3& point, int band) const
 
 double NearField::Quadratic(const Level& level, const Vec3& place, int band) const
 {
-  std::array<int, 3> first;
-  std::array<std::array<double, 3>, 3> weights;
+  // The polynomial of the second degree in all axes together through ten nodes, where that of the
+  // second degree in each takes 27: the nearest node, its neighbours along the axes, and one beside
+  // it in each plane, on the side where the place lies.
+  std::array<int, 3> nearest, side;
+  Vec3 off;
   for (int axis = 0; axis < 3; ++axis)
   {
     const double at = (place[axis] - level.First[axis]) / level.Step[axis];
-    const int nearest =
+    nearest[axis] =
       std::clamp(static_cast<int>(std::floor(at + 0.5 + Hair)), 1, level.Count[axis] - 2);
-    const double t = at - nearest;
-    first[axis] = nearest - 1;
-    weights[axis] = {0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)};
+    off[axis] = at - nearest[axis];
+    side[axis] = off[axis] < 0.0 ? -1 : 1;
   }
-  double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
-  for (int k = 0; k < 3; ++k)
+  const auto value = [&](int x, int y, int z)
   {
-    for (int j = 0; j < 3; ++j)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        const double value =
-          this->NodeValue(level, {first[0] + i, first[1] + j, first[2] + k}, band);
-        sum += weights[0][i] * weights[1][j] * weights[2][k] * value;
-        least = std::min(least, value);
-        most = std::max(most, value);
-      }
-    }
+    const double found =
+      this->NodeValue(level, {nearest[0] + x, nearest[1] + y, nearest[2] + z}, band);
+    least = std::min(least, found);
+    most = std::max(most, found);
+    return found;
+  };
+  const double middle = value(0, 0, 0);
+  double sum = middle;
+  // Changes from the nearest node to its neighbours on the place's side.
+  Vec3 change;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::array<int, 3> step{};
+    step[axis] = side[axis];
+    change[axis] = value(step[0], step[1], step[2]) - middle;
+    const double back = value(-step[0], -step[1], -step[2]) - middle;
+    const double t = std::abs(off[axis]);
+    sum += 0.5 * t * ((change[axis] - back) + t * (change[axis] + back));
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int next = (axis + 1) % 3;
+    std::array<int, 3> step{};
+    step[axis] = side[axis];
+    step[next] = side[next];
+    const double together = value(step[0], step[1], step[2]) - middle;
+    sum += std::abs(off[axis] * off[next]) * (together - change[axis] - change[next]);
   }
   // Where smoke changes from cell to cell by much, a quadratic would overshoot.
   return std::isfinite(least) ? std::clamp(sum, least, most) : least;
