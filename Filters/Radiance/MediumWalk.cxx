@@ -15,6 +15,37 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Share of a cell that planes may lie off their places.
 constexpr double Hair = 1e-9;
 
+/// Adds up extinction over lengths.
+struct DepthSum
+{
+  const float* Extinction;
+  double Depth = 0.0;
+
+  void operator()(std::int64_t cell, double from, double to)
+  {
+    this->Depth += this->Extinction[cell] * (to - from);
+  }
+};
+
+/// What a loop calls: for a sum a copy that goes back in the end, since only that is kept in
+/// registers.
+template <class Visit> struct Kept
+{
+  explicit Kept(Visit& visit) : Own(visit) {}
+  Visit& Own;
+};
+template <> struct Kept<DepthSum>
+{
+  explicit Kept(DepthSum& sum) : Own(sum), Sum_(sum) {}
+  ~Kept() { this->Sum_ = this->Own; }
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  DepthSum Own;
+
+private:
+  DepthSum& Sum_;
+};
+
 } // namespace
 
 /// A ray on its way through the cells of one grid.
@@ -25,7 +56,7 @@ public:
     double begin, double end);
 
   /// Calls visit(cell, begin, end) for each piece.
-  template <class Visit> void Step(Visit&& visit)
+  template <class Visit> void Step(Visit& visit)
   {
     this->StepTo(this->End_, visit);
     if (this->End_ > this->At_)
@@ -36,7 +67,7 @@ public:
 
   /// The same but for pieces in bricks without smoke. All planes are crossed at the same distances:
   /// each axis meets its own planes, whatever the others do.
-  template <class Visit> void Leap(Visit&& visit);
+  template <class Visit> void Leap(Visit& visit);
 
 private:
   struct Axis
@@ -66,7 +97,7 @@ private:
   };
 
   /// Crosses the planes before a distance; returns whether the grid goes on behind it.
-  template <class Visit> bool StepTo(double distance, Visit&& visit);
+  template <class Visit> bool StepTo(double distance, Visit& visit);
   /// Index of the cell along an axis.
   int Index(int axis) const
   {
@@ -130,9 +161,10 @@ Medium::GridRay::GridRay(const Grid& grid, const Vec3& origin, const Vec3& direc
   }
 }
 
-template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit&& visit)
+template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit& visit)
 {
   // One variable an axis, and copies: they stay in registers.
+  Kept<Visit> kept(visit);
   Axis x = this->Axes_[0];
   Axis y = this->Axes_[1];
   Axis z = this->Axes_[2];
@@ -147,7 +179,7 @@ template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit&& vis
     }
     if (axis.Next > at)
     {
-      visit(cell, at, axis.Next);
+      kept.Own(cell, at, axis.Next);
       at = axis.Next;
     }
     // Only rounding leads out before the end: the rest belongs to the last cell.
@@ -244,7 +276,7 @@ double Medium::GridRay::EndOfCube(int bricks) const
   return end;
 }
 
-template <class Visit> void Medium::GridRay::Leap(Visit&& visit)
+template <class Visit> void Medium::GridRay::Leap(Visit& visit)
 {
   if (!this->Clip())
   {
@@ -422,11 +454,9 @@ double Medium::OpticalDepth(
              ? this->MaximumExtinction_ * (end - begin)
              : 0.0;
   }
-  double depth = 0.0;
-  this->ForEachPiece<Pieces::Smoke>(origin, direction, begin, end,
-    [&](std::int64_t cell, double from, double to)
-    { depth += this->Extinction_[cell] * (to - from); });
-  return depth;
+  DepthSum sum{this->Extinction_.data()};
+  this->ForEachPiece<Pieces::Smoke>(origin, direction, begin, end, sum);
+  return sum.Depth;
 }
 
 } // namespace smokevis
