@@ -22,8 +22,9 @@ CellShape::CellShape(const Scene& scene, const Means& means)
   this->Lower_ = smoke.Lower();
   const auto find = [&](std::int64_t cell, double own)
   {
-    const Vec3 centre = smoke.CellCentre(cell);
-    const Vec3 size = smoke.CellSize(cell);
+    const Box bounds = smoke.CellBounds(cell);
+    const Vec3 centre = bounds.Centre();
+    const Vec3 size = bounds.Size();
     double logarithm = 0.0;
     double offset = 0.0;
     for (int axis = 0; axis < 3; ++axis)

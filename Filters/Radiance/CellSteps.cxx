@@ -1,9 +1,11 @@
 #include "CellSteps.h"
 
+#include "ReduceCells.h"
 #include "Scene.h"
 #include "ThickCells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace smokevis
@@ -25,15 +27,19 @@ CellSteps::CellSteps(const Scene& scene, const std::vector<float>& extinction,
     : Albedo_(static_cast<float>(scene.Albedo())),
       Latest_(often ? 1.0F : std::pow(Albedo_, LatestPower))
 {
-  double weights = 0.0;
-  double sum = 0.0;
-  for (std::size_t cell = 0; cell < extinction.size(); ++cell)
-  {
-    const double weight =
-      extinction[cell] * scene.Smoke().OwnVolume(static_cast<std::int64_t>(cell));
-    weights += weight;
-    sum += weight * this->Step(meetings[cell], meetings[cell]);
-  }
+  // Weights, and their sum over steps.
+  using Sums = std::array<double, 2>;
+  const auto [weights, sum] = ReduceCells(
+    extinction.size(), Sums{},
+    [&](Sums& sums, std::int64_t cell)
+    {
+      const double weight = extinction[cell] * scene.Smoke().OwnVolume(cell);
+      sums[0] += weight;
+      sums[1] += weight * this->Step(meetings[cell], meetings[cell]);
+    },
+    [](const Sums& a, const Sums& b) {
+      return Sums{a[0] + b[0], a[1] + b[1]};
+    });
   this->MeanStep_ = weights > 0.0 ? sum / weights : 1.0;
 }
 

@@ -9,12 +9,14 @@
 namespace smokevis
 {
 
+class CellsAround;
+
 /// Of the cells of a block: across which of their faces there is air that counts as clear before
 /// their own smoke (Deepening::ClearBefore). All lights that shine into the block ask for it.
 class ClearBorders
 {
 public:
-  ClearBorders(const Medium& smoke, const Medium::Block& block);
+  ClearBorders(const Medium& smoke, const CellsAround& around);
 
   const Medium::Block& Block() const { return this->Block_; }
   /// @param part a block within this one

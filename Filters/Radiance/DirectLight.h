@@ -16,6 +16,7 @@
 namespace smokevis
 {
 
+class CellsAround;
 class ClearBorders;
 class NearField;
 class NearLights;
@@ -61,8 +62,8 @@ public:
   /// @param sums of all cells of the smoke; the strongest lights should come first, since what the
   /// sums hold bounds what is negligible
   /// @param skips whether ways are told and negligible lights left out
-  BlockWork AddBlockFluence(
-    std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const;
+  BlockWork AddBlockFluence(std::size_t light, const CellsAround& around,
+    const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const;
   /// Mean illuminance of a triangle's front and back [lx].
   std::array<Spectrum, 2> TriangleIlluminance(
     std::size_t light, const Triangle& corners, const Vec3& normal) const;
@@ -234,24 +235,24 @@ private:
   /// would get.
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
-  /// What cells of a block, and those of its grid around it, see of a light: each is asked once.
-  struct KeptSights
-  {
-    explicit KeptSights(const Medium::Block& block);
-
-    /// The cells whose sights are kept, and what is known of them.
-    Medium::Block Kept;
-    std::vector<std::optional<Sight>> Known;
-  };
   /// What cells see of a light from right beside their centres.
   std::vector<Sight> SightsFrom(const LightGroup& root, std::span<const std::int64_t> cells) const;
+  /// What is known of a block and right around it, for one light.
+  struct Known
+  {
+    const ClearBorders& Borders;
+    LightWays Ways;
+    const CellsAround& Around;
+    /// What these cells see of the light: each is asked once.
+    std::vector<std::optional<Sight>> Sights;
+  };
   /// Share of a light that is not hidden from the cells of a block: of most of them their centres
   /// tell, others are crossed by the edge of a shadow. 0 of cells that walls cut, that the light is
   /// near to, or that lie behind it: they do not get it this way.
   /// @param roughly whether their centres do for all
-  /// @param sights kept of a block that this one is part of
+  /// @param known of a block that this one is part of
   std::vector<double> ShownIn(
-    std::size_t light, const Medium::Block& block, bool roughly, KeptSights& sights) const;
+    std::size_t light, const Medium::Block& block, bool roughly, Known& known) const;
   /// What lies before a plate of a box that its plane cuts along two of the box's faces: none of
   /// its light gets behind it.
   static std::optional<Box> BeforePlate(const LightGroup& root, const Box& box);
@@ -298,13 +299,6 @@ private:
   static bool Behind(const LightGroup& root, const Vec3& centre, const Vec3& size);
   /// Of boxes that light hardly gets into.
   Spectrum GradedFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
-  /// What is known of a block and right around it, for one light.
-  struct Known
-  {
-    const ClearBorders& Borders;
-    LightWays Ways;
-    KeptSights Sights;
-  };
   /// The ways from the cells of a block to a light.
   struct BlockWays
   {

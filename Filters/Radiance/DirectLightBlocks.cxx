@@ -1,6 +1,7 @@
 // DirectLight's part for blocks of smoke cells, which share the ways to a light.
 #include "DirectLight.h"
 
+#include "CellsAround.h"
 #include "ClearBorders.h"
 #include "Scene.h"
 #include "ToldWays.h"
@@ -194,13 +195,13 @@ DirectLight::BlockWays DirectLight::WalkWays(const Known& known, const Medium::B
   return walked;
 }
 
-DirectLight::BlockWork DirectLight::AddBlockFluence(
-  std::size_t light, const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const
+DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, const CellsAround& around,
+  const ClearBorders& borders, bool skips, std::vector<Spectrum>& sums) const
 {
   const Medium::Block& block = borders.Block();
   Known known{borders,
     {this->Scene_.Smoke(), this->Scene_.LargestScale(), this->Scene_.Lights().Root(light), block},
-    KeptSights(block)};
+    around, std::vector<std::optional<Sight>>(around.Count())};
   return this->AddBlockFluence(light, known, block, skips, sums);
 }
 
@@ -302,8 +303,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   {
     return {0, block.Cells()};
   }
-  const std::vector<double> shown =
-    this->ShownIn(light, block, ways.Share < WeakShare, known.Sights);
+  const std::vector<double> shown = this->ShownIn(light, block, ways.Share < WeakShare, known);
   std::vector<bool> asked(shown.size());
   std::transform(
     shown.begin(), shown.end(), asked.begin(), [](double share) { return share > 0.0; });

@@ -1,6 +1,7 @@
 // DirectLight's part for smoke cells that the edges of shadows cross.
 #include "DirectLight.h"
 
+#include "CellsAround.h"
 #include "Sampler.h"
 #include "Scene.h"
 
@@ -177,100 +178,67 @@ std::vector<Sight> DirectLight::SightsFrom(
   return sights;
 }
 
-DirectLight::KeptSights::KeptSights(const Medium::Block& block)
-    : Kept(block.Enlarged()), Known(this->Kept.Cells())
-{
-}
-
 std::vector<double> DirectLight::ShownIn(
-  std::size_t light, const Medium::Block& block, bool roughly, KeptSights& sights) const
+  std::size_t light, const Medium::Block& block, bool roughly, Known& known) const
 {
   const Medium& smoke = this->Scene_.Smoke();
-  constexpr std::size_t Nowhere = std::numeric_limits<std::size_t>::max();
-  // The cells of the block, then those across their faces that are not among them; and where among
-  // what is kept they are, if they are there.
-  std::vector<std::int64_t> cells;
-  std::vector<std::size_t> kept;
-  const std::size_t most = (roughly ? 1 : 3) * block.Cells();
-  cells.reserve(most);
-  kept.reserve(most);
-  const auto take = [&](const std::array<int, 3>& place, std::int64_t cell)
-  {
-    cells.push_back(cell);
-    kept.push_back(smoke.Cell(block, place) == cell ? sights.Kept.NumberIn(block, place) : Nowhere);
-  };
+  const CellsAround& around = known.Around;
+  std::vector<std::size_t> own;
+  own.reserve(block.Cells());
   block.ForEachCell(
-    [&](const std::array<int, 3>& place) { take(place, smoke.Cell(block, place)); });
-  // Of each cell of the block, where among them those across its faces are.
-  std::vector<std::array<std::size_t, 6>> beside(roughly ? 0 : block.Cells());
-  if (!roughly)
+    [&](const std::array<int, 3>& place) { own.push_back(around.Block().NumberIn(block, place)); });
+  std::vector<std::size_t> unknown;
+  std::vector<std::int64_t> cells;
+  const auto ask = [&](std::size_t number)
   {
-    block.ForEachCell(
-      [&](const std::array<int, 3>& place)
-      {
-        for (int face = 0; face < 6; ++face)
-        {
-          const int axis = face / 2;
-          std::array<int, 3> next = place;
-          next[axis] += face % 2 == 0 ? -1 : 1;
-          const std::int64_t other = smoke.Neighbour(block, place, axis, face % 2);
-          std::size_t& number = beside[block.Number(place)][face];
-          number = other < 0 ? Nowhere : cells.size();
-          if (next[axis] >= 0 && next[axis] < block.Size[axis] && smoke.Cell(block, next) == other)
-          {
-            number = block.Number(next);
-          }
-          else if (other >= 0)
-          {
-            take(next, other);
-          }
-        }
-      });
-  }
-  std::vector<Sight> seen(cells.size());
-  std::vector<std::int64_t> unknown;
-  std::vector<std::size_t> ofUnknown;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    if (kept[i] != Nowhere && sights.Known[kept[i]])
+    if (!known.Sights[number])
     {
-      seen[i] = *sights.Known[kept[i]];
-      continue;
+      // Nothing yet, but asked.
+      known.Sights[number] = Sight::None;
+      unknown.push_back(number);
+      cells.push_back(around.Cell(number));
     }
-    unknown.push_back(cells[i]);
-    ofUnknown.push_back(i);
+  };
+  std::for_each(own.begin(), own.end(), ask);
+  for (const std::size_t number : own)
+  {
+    for (const std::uint32_t other : around.Beside(number))
+    {
+      if (!roughly && other != CellsAround::None)
+      {
+        ask(other);
+      }
+    }
   }
   const LightGroup& root = this->Scene_.Lights().Root(light);
-  const std::vector<Sight> answers = this->SightsFrom(root, unknown);
+  const std::vector<Sight> answers = this->SightsFrom(root, cells);
   for (std::size_t answer = 0; answer < answers.size(); ++answer)
   {
-    const std::size_t i = ofUnknown[answer];
-    seen[i] = answers[answer];
-    if (kept[i] != Nowhere)
-    {
-      sights.Known[kept[i]] = seen[i];
-    }
+    known.Sights[unknown[answer]] = answers[answer];
   }
   std::vector<double> shares;
   shares.reserve(block.Cells());
-  for (std::size_t cell = 0; cell < block.Cells(); ++cell)
+  for (const std::size_t number : own)
   {
+    const std::int64_t cell = around.Cell(number);
+    const Box bounds = smoke.CellBounds(cell);
+    const Sight seen = *known.Sights[number];
     // The edge of a shadow lies between the centres of cells that see each other, but not the same
     // of the light.
-    const auto differs = [&](std::size_t other)
+    const auto differs = [&](std::uint32_t other)
     {
-      return other != Nowhere && seen[other] != seen[cell] &&
-             this->Scene_.Shapes().Visible(
-               smoke.CellCentre(cells[cell]), smoke.CellCentre(cells[other]));
+      return other != CellsAround::None && *known.Sights[other] != seen &&
+             this->Scene_.Shapes().Visible(bounds.Centre(), smoke.CellCentre(around.Cell(other)));
     };
     // Others are measured by themselves, or get nothing.
-    const bool asked = !smoke.Parts().Find(cells[cell]) && !this->KeptFluence(light, cells[cell]) &&
-                       !Behind(root, smoke.CellCentre(cells[cell]), smoke.CellSize(cells[cell]));
+    const bool asked = !smoke.Parts().Find(cell) && !this->KeptFluence(light, cell) &&
+                       !Behind(root, bounds.Centre(), bounds.Size());
+    const auto& beside = around.Beside(number);
     const bool crossed =
-      asked && (seen[cell] == Sight::Parted ||
-                 (!roughly && std::any_of(beside[cell].begin(), beside[cell].end(), differs)));
-    shares.push_back(crossed ? this->ShownShare(light, cells[cell], ShadowWays)
-                             : (asked && seen[cell] == Sight::Whole ? 1.0 : 0.0));
+      asked &&
+      (seen == Sight::Parted || (!roughly && std::any_of(beside.begin(), beside.end(), differs)));
+    shares.push_back(crossed ? this->ShownShare(light, cell, ShadowWays)
+                             : (asked && seen == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

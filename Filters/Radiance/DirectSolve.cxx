@@ -1,5 +1,6 @@
 #include "DirectSolve.h"
 
+#include "CellsAround.h"
 #include "ClearBorders.h"
 #include "DirectBalance.h"
 #include "DirectLight.h"
@@ -175,12 +176,13 @@ void DirectSolve::Cells()
   this->ForOwn(this->Blocks_.size(), 1, PartShare, CellShare,
     [&](std::size_t block)
     {
-      const ClearBorders borders(smoke, this->Blocks_[block]);
+      const CellsAround around(smoke, this->Blocks_[block]);
+      const ClearBorders borders(smoke, around);
       for (const std::size_t light : this->StrongestFirst(this->Blocks_[block]))
       {
         const std::vector<Spectrum> before = this->SumsIn(block, light);
         const DirectLight::BlockWork work =
-          direct.AddBlockFluence(light, borders, this->Options_.Skips, this->CellSums_);
+          direct.AddBlockFluence(light, around, borders, this->Options_.Skips, this->CellSums_);
         told += work.Told;
         negligible += work.Negligible;
         this->Note(block, light, before);

@@ -1,6 +1,7 @@
 #include "LineChoice.h"
 
 #include "BrightBodies.h"
+#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -85,20 +86,28 @@ struct Body
   double Capture = 0.0, Squares = 0.0;
 
   /// @param least extinction coefficient [1/m]
-  Body(const Medium& smoke, double least)
+  static Body Of(const Medium& smoke, double least)
   {
-    for (std::size_t i = 0; i < smoke.Cells(); ++i)
-    {
-      const auto cell = static_cast<std::int64_t>(i);
-      const double extinction = smoke.Extinction(cell);
-      const double own = smoke.OwnVolume(cell);
-      if (own > 0.0 && extinction >= least)
+    return ReduceCells(
+      smoke.Cells(), Body{},
+      [&](Body& body, std::int64_t cell)
       {
-        this->Bounds.Add(smoke.CellBounds(cell));
-        this->Capture += extinction * own;
-        this->Squares += extinction * extinction * own;
-      }
-    }
+        const double extinction = smoke.Extinction(cell);
+        const double own = smoke.OwnVolume(cell);
+        if (own > 0.0 && extinction >= least)
+        {
+          body.Bounds.Add(smoke.CellBounds(cell));
+          body.Capture += extinction * own;
+          body.Squares += extinction * extinction * own;
+        }
+      },
+      [](Body body, const Body& other)
+      {
+        body.Bounds.Add(other.Bounds);
+        body.Capture += other.Capture;
+        body.Squares += other.Squares;
+        return body;
+      });
   }
 
   /// Optical depth of isotropic chords of the box around it, by Cauchy's formula.
@@ -172,9 +181,10 @@ double CellMeetings(const GlobalLines& lines, const Medium& smoke, std::int64_t 
 bool ScattersOften(const Scene& scene, int band)
 {
   const Medium& smoke = scene.Smoke();
-  const Body whole(smoke, 0.0);
+  const Body whole = Body::Of(smoke, 0.0);
   // A cloud in much clear air counts for itself.
-  const Body dense(smoke, whole.Capture > 0.0 ? DenseShare * whole.Squares / whole.Capture : 0.0);
+  const Body dense =
+    Body::Of(smoke, whole.Capture > 0.0 ? DenseShare * whole.Squares / whole.Capture : 0.0);
   const double depth = scene.ExtinctionScale(band) * std::max(whole.MeanDepth(), dense.MeanDepth());
   // The share that is not scattered again is about 1 / (1 + depth) (Wigner's rational
   // approximation).

@@ -4,6 +4,7 @@
 #include "LargePages.h"
 #include "LineBuffers.h"
 #include "LineChoice.h"
+#include "ReduceCells.h"
 #include "Sampler.h"
 
 #include <algorithm>
@@ -55,36 +56,32 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   const std::size_t cells = smoke.Cells();
   this->InverseVolume_.resize(cells);
   this->Extinction_.resize(cells);
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    const double own = smoke.OwnVolume(static_cast<std::int64_t>(cell));
-    this->InverseVolume_[cell] = own > 0.0 ? static_cast<float>(1.0 / own) : 0.0F;
-    this->Extinction_[cell] =
-      static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
-  }
+  ForEachCell(cells,
+    [&](std::int64_t cell)
+    {
+      const double own = smoke.OwnVolume(cell);
+      this->InverseVolume_[cell] = own > 0.0 ? static_cast<float>(1.0 / own) : 0.0F;
+      this->Extinction_[cell] =
+        static_cast<float>(smoke.Extinction(cell) * scene.ExtinctionScale(band));
+    });
   if (smoke.Emits())
   {
     this->Emission_.resize(cells);
-    for (std::size_t cell = 0; cell < cells; ++cell)
-    {
-      this->Emission_[cell] =
-        static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
-    }
+    ForEachCell(cells,
+      [&](std::int64_t cell)
+      {
+        this->Emission_[cell] =
+          static_cast<float>((1.0 - scene.Albedo()) * smoke.EmittedLuminance(cell));
+      });
   }
-  std::size_t varying = 0;
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    varying += direct.Varies(static_cast<std::int64_t>(cell), band) ? 1 : 0;
-  }
+  const std::size_t varying =
+    CountCells(cells, [&](std::int64_t cell) { return direct.Varies(cell, band); });
   this->FetchesDirect_ = MuchVarying * varying > cells;
   this->Thick_ = ThickCells(scene, this->Extinction_, this->Lines_, progress);
   this->Shape_ = SourceShape(scene, field, direct, band, this->Extinction_);
   this->CellCrossings_.resize(cells);
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    this->CellCrossings_[cell] =
-      static_cast<float>(CellMeetings(this->Lines_, smoke, static_cast<std::int64_t>(cell)));
-  }
+  ForEachCell(cells, [&](std::int64_t cell)
+    { this->CellCrossings_[cell] = static_cast<float>(CellMeetings(this->Lines_, smoke, cell)); });
   const std::vector<Box> bounds = PatchBounds(scene);
   this->SideHits_.resize(2 * scene.Patches());
   for (std::size_t side = 0; side < this->SideHits_.size(); ++side)

@@ -331,24 +331,7 @@ template <Medium::Pieces Wanted, class Visit>
 void Medium::ForEachPiece(
   const Vec3& origin, const Vec3& direction, double begin, double end, Visit&& visit) const
 {
-  struct Interval
-  {
-    double Begin, End;
-    int Rank;
-  };
-  thread_local std::vector<Interval> intervals;
-  intervals.clear();
   const Vec3 inverse = 1.0 / direction;
-  for (std::size_t rank = 0; rank < this->Rank_.size(); ++rank)
-  {
-    const Grid& grid = this->Grids_[this->Rank_[rank]];
-    double enter = begin;
-    double leave = end;
-    if (grid.Bounds.Clip(origin, inverse, enter, leave))
-    {
-      intervals.push_back({enter, leave, static_cast<int>(rank)});
-    }
-  }
   const auto walk = [&](int rank, double from, double to)
   {
     const Grid& grid = this->Grids_[this->Rank_[rank]];
@@ -360,6 +343,31 @@ void Medium::ForEachPiece(
     }
     ray.Step(visit);
   };
+  if (this->Grids_.size() == 1)
+  {
+    if (this->Grids_[0].Bounds.Clip(origin, inverse, begin, end))
+    {
+      walk(0, begin, end);
+    }
+    return;
+  }
+  struct Interval
+  {
+    double Begin, End;
+    int Rank;
+  };
+  thread_local std::vector<Interval> intervals;
+  intervals.clear();
+  for (std::size_t rank = 0; rank < this->Rank_.size(); ++rank)
+  {
+    const Grid& grid = this->Grids_[this->Rank_[rank]];
+    double enter = begin;
+    double leave = end;
+    if (grid.Bounds.Clip(origin, inverse, enter, leave))
+    {
+      intervals.push_back({enter, leave, static_cast<int>(rank)});
+    }
+  }
   if (intervals.size() == 1)
   {
     walk(intervals[0].Rank, intervals[0].Begin, intervals[0].End);

@@ -6,6 +6,7 @@
 #include "LineSweep.h"
 #include "PlateGather.h"
 #include "PowerBalance.h"
+#include "ReduceCells.h"
 #include "Sampler.h"
 #include "ScatterBound.h"
 #include "Settling.h"
@@ -43,15 +44,13 @@ constexpr double CoarseDepth = 1.0;
 std::size_t CoarseCells(const Scene& scene, int band)
 {
   const Medium& smoke = scene.Smoke();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < smoke.Cells(); ++i)
-  {
-    const auto cell = static_cast<std::int64_t>(i);
-    const double depth =
-      smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.MeanChord(cell);
-    count += scene.Albedo() * depth > CoarseDepth && smoke.OwnVolume(cell) > 0.0 ? 1 : 0;
-  }
-  return count;
+  return CountCells(smoke.Cells(),
+    [&](std::int64_t cell)
+    {
+      const double depth =
+        smoke.Extinction(cell) * scene.ExtinctionScale(band) * smoke.MeanChord(cell);
+      return scene.Albedo() * depth > CoarseDepth && smoke.OwnVolume(cell) > 0.0;
+    });
 }
 
 } // namespace
@@ -291,7 +290,8 @@ void MultipleSolve::Band(int band)
     this->Say(name + "thick cells", static_cast<double>(thick),
       "what they scatter to themselves is summed up, not swept");
   }
-  if (const std::size_t coarse = CoarseCells(this->Scene_, band); coarse > 0)
+  const std::size_t coarse = this->Arena_.execute([&] { return CoarseCells(this->Scene_, band); });
+  if (coarse > 0)
   {
     this->Say(name + "coarse cells", static_cast<double>(coarse),
       "light is scattered more than once on a mean way through them: finer ones would tell more "

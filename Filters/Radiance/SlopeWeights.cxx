@@ -30,8 +30,9 @@ std::array<double, 2> SlopeWeights::Of(
 {
   const Medium& smoke = this->Scene_.Smoke();
   const double own = smoke.Extinction(cell);
-  const double place = smoke.CellCentre(cell)[axis];
-  const double half = 0.5 * smoke.CellSize(cell)[axis];
+  const Box bounds = smoke.CellBounds(cell);
+  const double place = bounds.Centre()[axis];
+  const double half = 0.5 * bounds.Size()[axis];
   // Between the cell and each of the others, in the mean.
   std::array<double, 2> extinction{};
   std::array<double, 2> distance{};

@@ -4,6 +4,7 @@
 #include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
+#include "ReduceCells.h"
 #include "SlopeWeights.h"
 
 #include <algorithm>
@@ -33,14 +34,20 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
 {
   const Medium& smoke = scene.Smoke();
   const double albedo = scene.Albedo() > 0.0 ? std::max(LeastAlbedo, scene.Albedo()) : 0.0;
-  std::vector<std::int64_t> shaped;
-  for (std::size_t i = 0; i < extinction.size(); ++i)
-  {
-    const auto cell = static_cast<std::int64_t>(i);
-    const double depth = extinction[i] * smoke.MeanChord(cell);
-    if (albedo * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell))
+  std::vector<char> shapes(extinction.size());
+  ForEachCell(extinction.size(),
+    [&](std::int64_t cell)
     {
-      shaped.push_back(cell);
+      const double depth = extinction[cell] * smoke.MeanChord(cell);
+      shapes[cell] =
+        albedo * depth > ThinnestDepth && depth < ThickestDepth && !smoke.Covered(cell) ? 1 : 0;
+    });
+  std::vector<std::int64_t> shaped;
+  for (std::size_t cell = 0; cell < shapes.size(); ++cell)
+  {
+    if (shapes[cell] != 0)
+    {
+      shaped.push_back(static_cast<std::int64_t>(cell));
     }
   }
   const SlopeWeights weights(scene);

@@ -5,6 +5,7 @@
 #include "LineChoice.h"
 #include "LinePieces.h"
 #include "Progress.h"
+#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <algorithm>
@@ -44,15 +45,10 @@ ThickCells::ThickCells(const Scene& scene, const std::vector<float>& extinction,
   const Medium& smoke = scene.Smoke();
   const auto returned = [&](double escape) { return scene.Albedo() * (1.0 - escape); };
   std::vector<double> escapes(extinction.size());
-  bool any = false;
-  for (std::size_t i = 0; i < extinction.size(); ++i)
-  {
-    const auto cell = static_cast<std::int64_t>(i);
-    const double chord = smoke.MeanChord(cell);
-    escapes[i] = LargestEscape(extinction[i] * chord);
-    any = any || returned(escapes[i]) > ThickShare;
-  }
-  if (!any)
+  ForEachCell(extinction.size(), [&](std::int64_t cell)
+    { escapes[cell] = LargestEscape(extinction[cell] * smoke.MeanChord(cell)); });
+  if (std::none_of(escapes.begin(), escapes.end(),
+        [&](double escape) { return returned(escape) > ThickShare; }))
   {
     return;
   }
