@@ -131,17 +131,15 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   return ways;
 }
 
-double DirectLight::Depth(const Receiver& receiver, const Vec3& place) const
+double DirectLight::Depth(const Receiver& receiver, const Vec3& place, double distance) const
 {
-  const Vec3 to = place - receiver.Point;
-  const double distance = glm::length(to);
   if (receiver.Extinction)
   {
     return *receiver.Extinction * distance;
   }
-  return receiver.Close
-           ? receiver.Close->At(place) * distance
-           : this->Scene_.Smoke().OpticalDepth(receiver.Point, to / distance, 0.0, distance);
+  return receiver.Close ? receiver.Close->At(place) * distance
+                        : this->Scene_.Smoke().OpticalDepth(
+                            receiver.Point, (place - receiver.Point) / distance, 0.0, distance);
 }
 
 DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receiver& receiver) const
@@ -151,7 +149,7 @@ DirectLight::Path DirectLight::SamplePath(const LightGroup& group, const Receive
   {
     return {0.0, 1.0};
   }
-  const double depth = this->Depth(receiver, group.Centre);
+  const double depth = this->Depth(receiver, group.Centre, distance);
   const bool dark = depth * this->Scene_.SmallestScale() > DeepestDepth;
   return {depth / distance, dark ? 0.0 : this->Visible(group, receiver)};
 }

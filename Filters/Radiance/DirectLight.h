@@ -133,7 +133,12 @@ private:
   /// The ways to a light, where they are few enough to stand for all.
   std::optional<Ways> WaysTo(const LightGroup& root, const Vec3& point) const;
   /// Optical depth at 633 nm between the receiver and a place on the light.
-  double Depth(const Receiver& receiver, const Vec3& place) const;
+  double Depth(const Receiver& receiver, const Vec3& place) const
+  {
+    return this->Depth(receiver, place, glm::length(place - receiver.Point));
+  }
+  /// @param distance between the two [m]
+  double Depth(const Receiver& receiver, const Vec3& place, double distance) const;
   Path SamplePath(const LightGroup& group, const Receiver& receiver) const;
   /// By how much ways to places of a group differ in optical depth, of any band: as those known
   /// close to the plate do, else as they are longer or shorter in the thickest smoke.

@@ -127,16 +127,23 @@ void DirectLight::AddLeaf(
   const double steep = std::min(1.0, leaf.Radius / (LeafRatio * toCentre));
   const bool thin =
     leaf.Law == EmissionLaw() && steep * this->ChangeOver(leaf, receiver) < EvenDepth;
+  // A plane leaf's area for each unit of u and v changes in proportion to them.
+  const Vec3 along = corners[1] - corners[0];
+  const Vec3 up = corners[3] - corners[0];
+  const Vec3 twist = corners[2] - corners[3] - along;
+  const double area = glm::dot(leaf.Normal, glm::cross(along, up));
+  const double areaAlong = glm::dot(leaf.Normal, glm::cross(along, twist));
+  const double areaUp = glm::dot(leaf.Normal, glm::cross(twist, up));
   double weights = 0.0;
   Spectrum weighted{};
   const auto add = [&](double u, double v, double share, bool seen)
   {
-    const Vec3 target = leaf.At(u, v);
+    const Vec3 target = corners[0] + u * along + v * (up + u * twist);
     const Vec3 to = target - point;
     const double square = glm::dot(to, to);
     const double distance = std::sqrt(square);
     const double cosine = std::max(0.0, -glm::dot(to, leaf.Normal) / distance);
-    double weight = share * leaf.AreaAt(u, v) * cosine / square;
+    double weight = share * std::abs(area + u * areaAlong + v * areaUp) * cosine / square;
     if (receiver.Normal)
     {
       weight *= std::max(0.0, glm::dot(to, *receiver.Normal) / distance);
@@ -147,7 +154,8 @@ void DirectLight::AddLeaf(
       return;
     }
     weight *= leaf.Law.Relative(-to / distance, cosine);
-    const double depth = few ? path.MeanExtinction * distance : this->Depth(receiver, target);
+    const double depth =
+      few ? path.MeanExtinction * distance : this->Depth(receiver, target, distance);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
       weighted[band] += weight * std::exp(-this->Scene_.ExtinctionScale(band) * depth);
@@ -233,7 +241,7 @@ bool DirectLight::AddStencil(
       factor *= glm::dot(to, *receiver.Normal) / distance;
     }
     const double depth =
-      path ? path->MeanExtinction * distance : this->Depth(receiver, place.Point);
+      path ? path->MeanExtinction * distance : this->Depth(receiver, place.Point, distance);
     for (int band = 0; band < this->Scene_.Bands(); ++band)
     {
       own[band] +=
