@@ -37,6 +37,7 @@ double IndirectLight::Radiance(
   smoke.WalkSmoke(origin, direction, 0.0, hit.Distance, segments);
   const double albedo = this->Scene_.Albedo();
   double depth = 0.0;
+  double ahead = 1.0;
   double sum = 0.0;
   for (const Segment& segment : segments)
   {
@@ -46,7 +47,8 @@ double IndirectLight::Radiance(
     const double multiple = this->Field_.MultipleFluence[index][batch];
     const double emitted = (1.0 - albedo) * smoke.EmittedLuminance(cell);
     // As for lines: what rays gather balances what they bring.
-    const bool flat = extinction * smoke.MeanChord(cell) >= SourceShape::ThickestDepth;
+    const bool flat = extinction * smoke.LargestEdge() >= SourceShape::ThickestDepth &&
+                      extinction * smoke.MeanChord(cell) >= SourceShape::ThickestDepth;
     const bool varies = this->Direct_.Varies(cell, this->Band_);
     const bool smooth = !varies && !flat && !this->Direct_.Near(cell);
     double begin = segment.Begin;
@@ -57,8 +59,8 @@ double IndirectLight::Radiance(
       const double fluence =
         (smooth ? this->Direct_.SmoothEmerging(piece, this->Band_) : piece.Lost * direct) +
         multiple * (flat ? piece.Lost : this->Shape_.Emerging(piece));
-      sum +=
-        std::exp(-depth) * (albedo / (4.0 * glm::pi<double>()) * fluence + piece.Lost * emitted);
+      sum += ahead * (albedo / (4.0 * glm::pi<double>()) * fluence + piece.Lost * emitted);
+      ahead *= piece.Passed;
       depth += piece.Depth;
       begin += length;
     };
@@ -77,10 +79,9 @@ double IndirectLight::Radiance(
       return sum;
     }
   }
-  return sum + std::exp(-depth) *
-                 (hit.Found()
-                     ? this->Leaving(hit, origin + hit.Distance * direction, direction, batch)
-                     : this->Scene_.Sky());
+  return sum + ahead * (hit.Found()
+                           ? this->Leaving(hit, origin + hit.Distance * direction, direction, batch)
+                           : this->Scene_.Sky());
 }
 
 double IndirectLight::DirectOn(std::size_t patch, const Hit& hit, const Vec3& point) const

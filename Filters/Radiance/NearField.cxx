@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace smokevis
@@ -295,40 +296,39 @@ double NearField::Quadratic(const Level& level, const Vec3& place, int band) con
     const double at = (place[axis] - level.First[axis]) / level.Step[axis];
     nearest[axis] =
       std::clamp(static_cast<int>(std::floor(at + 0.5 + Hair)), 1, level.Count[axis] - 2);
-    off[axis] = at - nearest[axis];
-    side[axis] = off[axis] < 0.0 ? -1 : 1;
+    side[axis] = at < nearest[axis] ? -1 : 1;
+    off[axis] = side[axis] * (at - nearest[axis]);
   }
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  const auto value = [&](int x, int y, int z)
+  const std::atomic<float>* const values = level.Values.data() + level.Index(nearest, band);
+  const std::ptrdiff_t row = level.Count[0];
+  const std::ptrdiff_t layer = row * level.Count[1];
+  // So many nodes from the nearest, towards the place.
+  const auto value = [&](int x, int y, int z) -> double
   {
-    const double found =
-      this->NodeValue(level, {nearest[0] + x, nearest[1] + y, nearest[2] + z}, band);
-    least = std::min(least, found);
-    most = std::max(most, found);
-    return found;
+    x *= side[0];
+    y *= side[1];
+    z *= side[2];
+    const float known = values[x + y * row + z * layer].load(std::memory_order_relaxed);
+    return std::isnan(known)
+             ? this->FillNode(level, {nearest[0] + x, nearest[1] + y, nearest[2] + z}, band)
+             : known;
   };
   const double middle = value(0, 0, 0);
+  const std::array<double, 3> ahead = {value(1, 0, 0), value(0, 1, 0), value(0, 0, 1)};
+  const std::array<double, 3> behind = {value(-1, 0, 0), value(0, -1, 0), value(0, 0, -1)};
+  const std::array<double, 3> beside = {value(1, 1, 0), value(0, 1, 1), value(1, 0, 1)};
   double sum = middle;
-  // Changes from the nearest node to its neighbours on the place's side.
-  Vec3 change;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::array<int, 3> step{};
-    step[axis] = side[axis];
-    change[axis] = value(step[0], step[1], step[2]) - middle;
-    const double back = value(-step[0], -step[1], -step[2]) - middle;
-    const double t = std::abs(off[axis]);
-    sum += 0.5 * t * ((change[axis] - back) + t * (change[axis] + back));
-  }
+  double least = middle;
+  double most = middle;
   for (int axis = 0; axis < 3; ++axis)
   {
     const int next = (axis + 1) % 3;
-    std::array<int, 3> step{};
-    step[axis] = side[axis];
-    step[next] = side[next];
-    const double together = value(step[0], step[1], step[2]) - middle;
-    sum += std::abs(off[axis] * off[next]) * (together - change[axis] - change[next]);
+    const double t = off[axis];
+    sum += 0.5 * t *
+           ((ahead[axis] - behind[axis]) + t * ((ahead[axis] - middle) + (behind[axis] - middle)));
+    sum += t * off[next] * ((beside[axis] - ahead[axis]) - (ahead[next] - middle));
+    least = std::min(least, std::min(std::min(ahead[axis], behind[axis]), beside[axis]));
+    most = std::max(most, std::max(std::max(ahead[axis], behind[axis]), beside[axis]));
   }
   // Where smoke changes from cell to cell by much, a quadratic would overshoot.
   return std::isfinite(least) ? std::clamp(sum, least, most) : least;
