@@ -48,7 +48,7 @@ float CellSteps::StepOf(float meetings) const
   // What lines would correct of a cell's own error differs from sweep to sweep by the lengths in
   // it: its mean square shrinks fastest where 1 + their variance divides the step.
   const float own = this->Latest_ * this->Albedo_;
-  return std::min(1.0F, BoldSteps / (1.0F + own * own * ThickCells::LengthVariance / meetings));
+  return std::min(1.0F, BoldSteps * meetings / (meetings + own * own * ThickCells::LengthVariance));
 }
 
 } // namespace smokevis

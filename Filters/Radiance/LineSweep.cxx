@@ -36,6 +36,7 @@ constexpr std::size_t MuchVarying = 4;
 
 /// Radiance of a line's two directions together over the fluence, where light is isotropic.
 constexpr float BothWays = static_cast<float>(0.5 / glm::pi<double>());
+constexpr float FromBothWays = static_cast<float>(2.0 * glm::pi<double>());
 
 } // namespace
 
@@ -211,7 +212,7 @@ void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState&
     }
     else
     {
-      const float estimate = tally.Expected / BothWays + change;
+      const float estimate = FromBothWays * tally.Expected + change;
       residual = estimate - before;
       const float crossings = this->CellCrossings_[cell];
       state.Fluence[cell] =

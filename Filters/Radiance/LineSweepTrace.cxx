@@ -71,6 +71,13 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     {
       const auto size = static_cast<float>(part);
       const float depth = own.Extinction() * size;
+      if (depth == 0.0F)
+      {
+        // Clear air.
+        buffers.Pieces.push_back({cell, size, source, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F});
+        at += part;
+        return;
+      }
       const float transmittance = std::exp(-depth);
       const float escape =
         depth < 0.01F ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
