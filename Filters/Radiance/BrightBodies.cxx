@@ -1,7 +1,7 @@
 #include "BrightBodies.h"
 
+#include "CellLoops.h"
 #include "FirstSource.h"
-#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <algorithm>

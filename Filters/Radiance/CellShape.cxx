@@ -1,14 +1,12 @@
 #include "CellShape.h"
 
+#include "CellLoops.h"
 #include "OpenFaces.h"
 #include "Scene.h"
 #include "SlopeWeights.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace smokevis
 {
@@ -54,18 +52,14 @@ CellShape::CellShape(const Scene& scene, const Means& means)
     }
     this->Slopes_[cell].Offset = static_cast<float>(offset - logarithm);
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, smoke.Cells(), 1024),
-    [&](const tbb::blocked_range<std::size_t>& range)
+  ForEachCell(smoke.Cells(),
+    [&](std::int64_t cell)
     {
-      for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+      const float own = means(cell, cell);
+      // Only scattering cells are asked for.
+      if (own > 0.0F && smoke.Extinction(cell) > 0.0F)
       {
-        const auto here = static_cast<std::int64_t>(cell);
-        const float own = means(here, here);
-        // Only scattering cells are asked for.
-        if (own > 0.0F && smoke.Extinction(here) > 0.0F)
-        {
-          find(here, own);
-        }
+        find(cell, own);
       }
     });
 }

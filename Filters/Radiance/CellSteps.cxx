@@ -1,6 +1,6 @@
 #include "CellSteps.h"
 
-#include "ReduceCells.h"
+#include "CellLoops.h"
 #include "Scene.h"
 #include "ThickCells.h"
 

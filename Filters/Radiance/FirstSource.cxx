@@ -1,7 +1,7 @@
 #include "FirstSource.h"
 
+#include "CellLoops.h"
 #include "LightField.h"
-#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <cstddef>

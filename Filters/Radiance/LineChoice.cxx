@@ -1,7 +1,7 @@
 #include "LineChoice.h"
 
 #include "BrightBodies.h"
-#include "ReduceCells.h"
+#include "CellLoops.h"
 #include "Scene.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "LineSweep.h"
 
+#include "CellLoops.h"
 #include "DirectField.h"
 #include "LargePages.h"
 #include "LineBuffers.h"
 #include "LineChoice.h"
-#include "ReduceCells.h"
 #include "Sampler.h"
 
 #include <algorithm>

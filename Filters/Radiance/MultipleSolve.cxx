@@ -1,12 +1,12 @@
 #include "MultipleSolve.h"
 
 #include "BatchSweeps.h"
+#include "CellLoops.h"
 #include "DirectField.h"
 #include "Errors.h"
 #include "LineSweep.h"
 #include "PlateGather.h"
 #include "PowerBalance.h"
-#include "ReduceCells.h"
 #include "Sampler.h"
 #include "ScatterBound.h"
 #include "Settling.h"

@@ -1,10 +1,10 @@
 #include "SourceShape.h"
 
+#include "CellLoops.h"
 #include "DirectField.h"
 #include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
-#include "ReduceCells.h"
 #include "SlopeWeights.h"
 
 #include <algorithm>
@@ -34,6 +34,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
 {
   const Medium& smoke = scene.Smoke();
   const double albedo = scene.Albedo() > 0.0 ? std::max(LeastAlbedo, scene.Albedo()) : 0.0;
+  // Whether each cell's source varies; bits would share bytes between threads.
   std::vector<char> shapes(extinction.size());
   ForEachCell(extinction.size(),
     [&](std::int64_t cell)

@@ -1,11 +1,11 @@
 #include "ThickCells.h"
 
+#include "CellLoops.h"
 #include "ExponentialMean.h"
 #include "GlobalLines.h"
 #include "LineChoice.h"
 #include "LinePieces.h"
 #include "Progress.h"
-#include "ReduceCells.h"
 #include "Scene.h"
 
 #include <algorithm>
