@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -24,6 +25,14 @@ namespace
 constexpr double ThinnestDepth = 0.05;
 /// Soot of a lower albedo is looked at as if it had this one: what little it sends on is the veil.
 constexpr double LeastAlbedo = 0.5;
+
+/// By how much the logarithm of a field rises; the quotient of what is next to nothing and of much
+/// need not fit single precision.
+float Rise(float from, float to)
+{
+  return std::log(
+    std::clamp(to / from, std::numeric_limits<float>::min(), std::numeric_limits<float>::max()));
+}
 
 } // namespace
 
@@ -126,10 +135,10 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
           const float low = value(this->Beside(cell, axis, 0));
           const float high = value(this->Beside(cell, axis, 1));
           // Light falls off exponentially.
-          slope[axis] = low > 0.0F && here > 0.0F && high > 0.0F
-                          ? std::log(here / low) * own.Factors[axis][0] +
-                              std::log(high / here) * own.Factors[axis][1]
-                          : 0.0F;
+          slope[axis] =
+            low > 0.0F && here > 0.0F && high > 0.0F
+              ? Rise(low, here) * own.Factors[axis][0] + Rise(here, high) * own.Factors[axis][1]
+              : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];
         }
         // Nowhere below 0.
