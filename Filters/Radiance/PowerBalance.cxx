@@ -199,7 +199,16 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
     scaled[batch] = plain[batch] * scales.Own[batch];
   }
   scales.CommonError = RelativeError(losses);
-  scales.Common = scales.CommonError < 1.0 ? this->ScaleFor(Mean(losses)) : 1.0;
+  scales.Common = 1.0;
+  scales.Alike.fill(1.0);
+  if (scales.CommonError < 1.0)
+  {
+    const double lost = Mean(losses);
+    scales.Common = this->ScaleFor(lost);
+    std::transform(losses.begin(), losses.end(), scales.Alike.begin(),
+      [&](double own)
+      { return scales.Common * std::clamp(2.0 - own / lost, SmallestScale, LargestScale); });
+  }
   scales.Spread = RelativeError(plain);
   scales.OwnSpread = RelativeError(scaled);
   return scales;
@@ -235,7 +244,7 @@ void PowerBalance::ScaleLatest(
   this->ForEach(batches.size(),
     [&](std::size_t i)
     {
-      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Common;
+      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Alike[i];
       Multiply(batches[i].Fluence, scale);
       Multiply(batches[i].Illuminance, scale);
     });

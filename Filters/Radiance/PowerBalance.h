@@ -50,7 +50,8 @@ public:
   /// Throws Error where what is lost is far from what is emitted: light that does not settle.
   void ExpectBalance(const std::vector<Powers>& powers) const;
   /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
-  /// they do not agree better each for itself.
+  /// they do not agree better each for itself. Slow light stays for long at what it is scaled to,
+  /// so that the batches then differ by as much as that is uncertain.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums, each batch for itself where they then agree better, else all alike where no
   /// light leaves the scene: then all of it is known to be lost there.
@@ -76,6 +77,9 @@ private:
     /// Of each batch, of all alike, and the relative standard error of the latter.
     DoubleLanes Own{};
     double Common = 1.0, CommonError = 0.0;
+    /// Of each batch that of all alike, less or more by what its loss changes of that to first
+    /// order: their spread is the error.
+    DoubleLanes Alike{};
     /// Relative standard error of what the batches send on, and of the same each with its own
     /// scale.
     double Spread = 0.0, OwnSpread = 0.0;
