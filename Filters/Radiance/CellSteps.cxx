@@ -2,9 +2,7 @@
 
 #include "CellLoops.h"
 #include "Scene.h"
-#include "ThickCells.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,9 +12,6 @@ namespace smokevis
 namespace
 {
 
-/// Steps of a cell's light are as large as its own noise lets them be, or larger by this: light
-/// that comes from its neighbours is smoother.
-constexpr float BoldSteps = 4.0F / 3.0F;
 /// Power of the albedo that the latest light's weight is: in soot the mean has less noise.
 constexpr float LatestPower = 4.0F;
 
@@ -41,14 +36,6 @@ CellSteps::CellSteps(const Scene& scene, const std::vector<float>& extinction,
       return Sums{a[0] + b[0], a[1] + b[1]};
     });
   this->MeanStep_ = weights > 0.0 ? sum / weights : 1.0;
-}
-
-float CellSteps::StepOf(float meetings) const
-{
-  // What lines would correct of a cell's own error differs from sweep to sweep by the lengths in
-  // it: its mean square shrinks fastest where 1 + their variance divides the step.
-  const float own = this->Latest_ * this->Albedo_;
-  return std::min(1.0F, BoldSteps * meetings / (meetings + own * own * ThickCells::LengthVariance));
 }
 
 } // namespace smokevis

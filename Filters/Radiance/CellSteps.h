@@ -1,6 +1,9 @@
 // How far a sweep takes the light of cells, and what it expects of them.
 #pragma once
 
+#include "ThickCells.h"
+
+#include <algorithm>
 #include <vector>
 
 namespace smokevis
@@ -40,8 +43,19 @@ public:
   double MeanStep() const { return this->MeanStep_; }
 
 private:
+  /// Steps of a cell's light are as large as its own noise lets them be, or larger by this: light
+  /// that comes from its neighbours is smoother.
+  static constexpr float BoldSteps = 4.0F / 3.0F;
+
   static bool IsFresh(float meetings) { return meetings >= FewestMeetings; }
-  float StepOf(float meetings) const;
+  float StepOf(float meetings) const
+  {
+    // What lines would correct of a cell's own error differs from sweep to sweep by the lengths in
+    // it: its mean square shrinks fastest where 1 + their variance divides the step.
+    const float own = this->Latest_ * this->Albedo_;
+    return std::min(
+      1.0F, BoldSteps * meetings / (meetings + own * own * ThickCells::LengthVariance));
+  }
 
   float Albedo_ = 0.0F;
   /// Weight of the latest light, not its mean.

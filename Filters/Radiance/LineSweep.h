@@ -135,7 +135,8 @@ private:
   float Scatter_;
   /// 1 / volume of each cell.
   std::vector<float> InverseVolume_;
-  std::vector<float> Extinction_;
+  /// As in LineTallies::Cell.
+  std::vector<float> SignedExtinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
   GlobalLines Lines_, ThinLines_;

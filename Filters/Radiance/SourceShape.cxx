@@ -71,7 +71,8 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
         const std::int64_t cell = shaped[i];
-        this->Cells_[i] = {cell, smoke.CellCentre(cell), direct.Varies(cell, band), Slope{}};
+        this->Cells_[i] = {
+          cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band), Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         Measures& own = this->Measures_[i];
         for (int axis = 0; axis < 3; ++axis)

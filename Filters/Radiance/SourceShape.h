@@ -47,7 +47,8 @@ public:
   struct Shaped
   {
     std::int64_t Index = 0;
-    Vec3 Centre{0.0};
+    /// Of its centre, from the smoke's lower corner.
+    Vec3 Place{0.0};
     /// Whether direct light is known inside the cell: the shape is that of the rest.
     bool DirectVaries = false;
     Slope Change{};

@@ -29,10 +29,8 @@ public:
   ThickCells(const Scene& scene, const std::vector<float>& extinction, const GlobalLines& lines,
     const Progress& progress);
 
-  bool IsThick(std::size_t cell) const
-  {
-    return !this->Orders_.empty() && this->Orders_[cell] > 0.0F;
-  }
+  bool Any() const { return !this->Orders_.empty(); }
+  bool IsThick(std::size_t cell) const { return this->Any() && this->Orders_[cell] > 0.0F; }
   /// How many times what a sweep would change of a thick cell's fluence it is to change.
   /// @param meetings how many lines of the sweep are expected to meet the cell
   float Gain(std::size_t cell, float meetings) const
