@@ -16,6 +16,21 @@ namespace
 constexpr double BetterShare = 0.7;
 /// Cosine of the slant beyond which the way of an eye's rays close to a plate gets no longer.
 constexpr double LeastSlant = 0.25;
+/// Share of the veil before the plate's middle by which it may differ from the mean of those before
+/// the corners to be told between these: in the map of a hall, where rays told of all nine, the
+/// veil was then off by 0.3 % at most in 99 of 100 views, and by 0.6 % in all.
+constexpr double EvenShare = 0.005;
+/// Of the three by three ways, the middle one, those to the corners, and the others, each with the
+/// corners that it lies between.
+constexpr std::size_t Middle = 4;
+constexpr std::array<std::size_t, 4> Corners = {0, 2, 6, 8};
+struct BetweenCorners
+{
+  std::size_t Way;
+  std::array<std::size_t, 2> Corners;
+};
+constexpr std::array<BetweenCorners, 4> Between = {
+  {{1, {0, 2}}, {3, {0, 6}}, {5, {2, 8}}, {7, {6, 8}}}};
 
 /// The batches of all that the smoke adds along a ray [cd/m2].
 Lanes VeilOf(const RayLight& light)
@@ -74,8 +89,21 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
       const double distance = glm::length(to);
       const Vec3 direction = to / distance;
       const double end = std::max(0.0, distance - reachOf(direction));
-      this->Ways_.push_back(
-        {{direction, end, Weights3[i] * Weights3[j]}, this->Trace(direction, 0.0, end)});
+      this->Ways_.push_back({{direction, end, Weights3[i] * Weights3[j]}, {}});
+    }
+  }
+  const auto trace = [this](std::size_t way)
+  {
+    const SightLine& line = this->Ways_[way].Line;
+    this->Ways_[way].Light = this->Trace(line.Direction, 0.0, line.End);
+  };
+  trace(Middle);
+  std::for_each(Corners.begin(), Corners.end(), trace);
+  if (!this->TellBetween())
+  {
+    for (const BetweenCorners& between : Between)
+    {
+      trace(between.Way);
     }
   }
   this->Near_.resize(columns.Count() * rows.Count());
@@ -95,6 +123,36 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
       }
     }
   }
+}
+
+bool PlateVeil::TellBetween()
+{
+  const RayLight& middle = this->Ways_[Middle].Light;
+  double steady = middle.VeilDirect;
+  Lanes multiple = middle.VeilMultiple;
+  for (const std::size_t corner : Corners)
+  {
+    steady -= 0.25 * this->Ways_[corner].Light.VeilDirect;
+    Add(multiple, this->Ways_[corner].Light.VeilMultiple, -0.25F);
+  }
+  if (!(std::abs(steady + Mean(multiple)) <=
+        EvenShare * (middle.VeilDirect + Mean(middle.VeilMultiple))))
+  {
+    return false;
+  }
+  // Quadratic along both edges, alike: half of what the middle differs by is due to each.
+  for (const BetweenCorners& between : Between)
+  {
+    Way& way = this->Ways_[between.Way];
+    way.Light.VeilDirect = 0.5 * steady;
+    Add(way.Light.VeilMultiple, multiple, 0.5F);
+    for (const std::size_t corner : between.Corners)
+    {
+      way.Light.VeilDirect += 0.5 * this->Ways_[corner].Light.VeilDirect;
+      Add(way.Light.VeilMultiple, this->Ways_[corner].Light.VeilMultiple, 0.5F);
+    }
+  }
+  return true;
 }
 
 Lanes PlateVeil::At(std::size_t place) const
