@@ -217,12 +217,6 @@ double NearField::EvenDepth(const Vec3& place, int band) const
          std::sqrt(glm::dot(place, place) + plate);
 }
 
-float NearField::NodeValue(const Level& level, const std::array<int, 3>& node, int band) const
-{
-  const float known = level.Values[level.Index(node, band)].load(std::memory_order_relaxed);
-  return std::isnan(known) ? this->FillNode(level, node, band) : known;
-}
-
 float NearField::FillNode(const Level& level, const std::array<int, 3>& node, int band) const
 {
   Vec3 place;
@@ -351,20 +345,28 @@ double NearField::Linear(const Level& level, const Vec3& place, int band) const
   // smoke exponentially.
   const double stepDepth = this->Extinction_ * this->Scene_.ExtinctionScale(band) *
                            (level.Place(2, node[2] + 1) - level.Place(2, node[2]));
+  const std::atomic<float>* const values = level.Values.data() + level.Index(node, band);
+  const std::ptrdiff_t row = level.Count[0];
+  const std::ptrdiff_t layer = row * level.Count[1];
+  std::array<double, 8> corners, weights;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const int x = corner & 1;
+    const int y = corner >> 1 & 1;
+    const int z = corner >> 2;
+    const float known = values[x + y * row + z * layer].load(std::memory_order_relaxed);
+    corners[corner] = std::isnan(known)
+                        ? this->FillNode(level, {node[0] + x, node[1] + y, node[2] + z}, band)
+                        : known;
+    weights[corner] = (x == 1 ? share[0] : 1.0 - share[0]) * (y == 1 ? share[1] : 1.0 - share[1]) *
+                      (z == 1 ? share[2] : 1.0 - share[2]);
+  }
   const auto mean = [&](const auto& of)
   {
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner)
     {
-      std::array<int, 3> other = node;
-      double weight = 1.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const bool upper = (corner >> axis & 1) != 0;
-        other[axis] += upper ? 1 : 0;
-        weight *= upper ? share[axis] : 1.0 - share[axis];
-      }
-      sum += weight * of(this->NodeValue(level, other, band));
+      sum += weights[corner] * of(corners[corner]);
     }
     return sum;
   };

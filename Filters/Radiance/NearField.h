@@ -41,10 +41,8 @@ public:
 private:
   struct Level;
 
-  /// The light's fluence at a node over the closed form's, or its logarithm; that is -infinity
-  /// where it is 0.
-  float NodeValue(const Level& level, const std::array<int, 3>& node, int band) const;
-  /// Computes what nobody asked for before, in all bands.
+  /// Computes the light's fluence at a node that nobody asked for before over the closed form's, or
+  /// its logarithm, in all bands; that is -infinity where it is 0. Returns that of a band.
   float FillNode(const Level& level, const std::array<int, 3>& node, int band) const;
   /// The same at a place, by the quadratic through the nodes around it; not finite where it is 0 at
   /// one of them.

@@ -25,6 +25,10 @@ constexpr double LargestChangeAlone = 0.1;
 /// Share of either by which the depth in the middle of a block may be off the mean of those at its
 /// ends: there smoke is uneven inside the block.
 constexpr double BendShare = 0.1;
+/// Where borders tell that much less changes between two of them, by this factor, and that a second
+/// difference there is no more than such a bend, which is an eighth of it, no depth is looked at
+/// between them.
+constexpr double TellingShare = 4.0;
 constexpr std::size_t FewestBlocks = 3;
 constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
@@ -201,6 +205,27 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
   {
     clearest = std::min(clearest, *std::min_element(depths.begin(), depths.end()));
   }
+  // Whether the depths at a block's borders and those beside tell that it holds no more than a
+  // small part of what is too much: it need not be looked into.
+  const auto tellsEven = [&](std::size_t block, double change)
+  {
+    for (std::size_t line = 0; line < Lines.size(); ++line)
+    {
+      double most = TellingShare * std::abs(known[block + 1][line] - known[block][line]);
+      for (std::size_t border = std::max<std::size_t>(block, 1);
+           border <= block + 1 && border + 1 < known.size(); ++border)
+      {
+        most = std::max(most,
+          std::abs(known[border - 1][line] - 2.0 * known[border][line] + known[border + 1][line]) /
+            BendShare);
+      }
+      if (most > change)
+      {
+        return false;
+      }
+    }
+    return known.size() > 2;
+  };
   std::vector<double> cut;
   // Halves what lies between two borders where that is too much, and adds the borders after the
   // first.
@@ -232,7 +257,8 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     cut.assign(1, borders[0]);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i)
     {
-      add(add, borders[i], known[i], borders[i + 1], known[i + 1], MostHalvings, change);
+      add(add, borders[i], known[i], borders[i + 1], known[i + 1],
+        tellsEven(i, change) ? 0 : MostHalvings, change);
     }
   }
   return cut;
