@@ -20,12 +20,17 @@ FirstSource::FirstSource(const Scene& scene, const LightField& field, int band)
 {
 }
 
-double FirstSource::Whole(const Box& outer) const
+double FirstSource::OfSmoke() const
 {
-  double power = ReduceCells(
+  return ReduceCells(
     this->Smoke_.Cells(), 0.0,
     [this](double& sum, std::int64_t cell) { sum += this->OfCell(cell); }, std::plus<>());
+}
+
+double FirstSource::OfPatches() const
+{
   const Scene& scene = this->Scene_;
+  double power = 0.0;
   for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
   {
     power +=
@@ -37,7 +42,13 @@ double FirstSource::Whole(const Box& outer) const
   {
     power += lights.LeftToLines(cell) ? lights.CellFlux(cell, this->Band_) : 0.0;
   }
-  return power + glm::pi<double>() * scene.Sky() * outer.Surface();
+  return power;
+}
+
+double FirstSource::Whole(const Box& outer) const
+{
+  return this->OfSmoke() + this->OfPatches() +
+         glm::pi<double>() * this->Scene_.Sky() * outer.Surface();
 }
 
 } // namespace smokevis

@@ -31,6 +31,9 @@ public:
     const double perVolume = this->PerVolume(cell);
     return perVolume > 0.0 ? perVolume * this->Smoke_.OwnVolume(cell) : 0.0;
   }
+  /// Of all smoke, and of all patches with what lines bring from large plates [lm].
+  double OfSmoke() const;
+  double OfPatches() const;
   /// Of all, with what lines bring from large plates and the sky [lm].
   /// @param outer box that lines from the sky come through
   double Whole(const Box& outer) const;

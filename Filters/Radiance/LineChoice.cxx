@@ -2,11 +2,10 @@
 
 #include "BrightBodies.h"
 #include "CellLoops.h"
-#include "LightField.h"
+#include "FirstSource.h"
 #include "Scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -23,11 +22,10 @@ namespace
 constexpr double CrossingsPerSweep = 1.5;
 constexpr double FewestLines = 512.0;
 constexpr double MostLinesForPatches = 20000.0;
-/// Share of what is sent on at all that patches must send on to be met so often; where it is less,
-/// fewer lines are drawn for them, in proportion. Their noise is then that much less of all light:
-/// a patch that sends on a hundredth, met by a tenth of the lines, leaves a thirtieth of the noise
-/// that one does which sends on all.
-constexpr double PatchesMatter = 0.1;
+/// Share of what is sent on at all that patches must send on to get all lines that they need; where
+/// it is less, they get fewer, in proportion, and more of them are put together (PatchGroups).
+/// Their noise falls with the root of their lines, but what it is a share of falls with the lines.
+constexpr double PatchesMatter = 0.02;
 /// Below a tolerance so many times as many meet patches, which makes it so much finer, at most.
 constexpr double FineTolerance = 0.03;
 constexpr double MostTimes = 2.0;
@@ -83,56 +81,6 @@ double LinesForPatches(
   return area > 0.0
            ? std::min(meetings * reflecting * box.Surface() / (2.0 * area), MostLinesForPatches)
            : 0.0;
-}
-
-/// Share of all that is sent on which patches send on: of direct light, or of light that is even
-/// everywhere, whichever is more.
-double SentByPatches(const Scene& scene, const LightField& field, int band)
-{
-  const EmitterSet& lights = scene.Lights();
-  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
-  {
-    if (lights.LeftToLines(cell))
-    {
-      return 1.0;
-    }
-  }
-  if (scene.Sky() > 0.0)
-  {
-    return 1.0;
-  }
-  // Of direct and of even light; a fluence brings a quarter of itself to a surface.
-  using Powers = std::array<double, 2>;
-  Powers patches{};
-  for (std::size_t patch = 0; patch < scene.Patches(); ++patch)
-  {
-    for (int side = 0; side < 2; ++side)
-    {
-      const double sends = scene.PatchReflectance(patch)[band] * scene.ExposedArea(patch, side);
-      patches[0] += sends * field.DirectIlluminance[field.PatchIndex(band, patch, side)];
-      patches[1] += 0.25 * sends;
-    }
-  }
-  const Medium& smoke = scene.Smoke();
-  const Powers scattered = ReduceCells(
-    smoke.Cells(), Powers{},
-    [&](Powers& sums, std::int64_t cell)
-    {
-      const double scatters = scene.Albedo() * scene.ExtinctionScale(band) *
-                              smoke.Extinction(cell) * smoke.OwnVolume(cell);
-      sums[0] += scatters * field.DirectFluence[field.CellIndex(band, cell)];
-      sums[1] += scatters;
-    },
-    [](const Powers& a, const Powers& b) {
-      return Powers{a[0] + b[0], a[1] + b[1]};
-    });
-  double share = 0.0;
-  for (std::size_t kind = 0; kind < patches.size(); ++kind)
-  {
-    const double all = patches[kind] + scattered[kind];
-    share = all > 0.0 ? std::max(share, patches[kind] / all) : share;
-  }
-  return share;
 }
 
 /// The cells of at least some extinction coefficient.
@@ -219,6 +167,41 @@ std::vector<CellGroup> CellGroups(const Medium& smoke)
   return groups;
 }
 
+/// Share of all that is sent on which patches send on: of direct light, or of light that is even
+/// everywhere, whichever is more.
+double SentByPatches(const Scene& scene, const LightField& field, int band)
+{
+  const Medium& smoke = scene.Smoke();
+  const EmitterSet& lights = scene.Lights();
+  bool known = !(scene.Sky() > 0.0) && !smoke.Emits();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    known = known && !lights.LeftToLines(cell);
+  }
+  if (!known)
+  {
+    // Nobody knows yet where that light comes to.
+    return 1.0;
+  }
+  const auto shareOf = [](double patches, double other)
+  { return patches > 0.0 ? patches / (patches + other) : 0.0; };
+  const FirstSource direct(scene, field, band);
+  // Even light brings a quarter of its fluence to any surface, that of the smoke's box too, which
+  // smoke sends no more out through.
+  double reflected = 0.0;
+  for (std::size_t side = 0; side < 2 * scene.Patches(); ++side)
+  {
+    reflected += 0.25 * scene.PatchReflectance(side / 2)[band] *
+                 scene.ExposedArea(side / 2, static_cast<int>(side % 2));
+  }
+  const Body body = Body::Of(smoke, 0.0);
+  const double scattered = body.Capture > 0.0
+                             ? std::min(scene.Albedo() * scene.ExtinctionScale(band) * body.Capture,
+                                 0.25 * body.Bounds.Surface())
+                             : 0.0;
+  return std::max(shareOf(direct.OfPatches(), direct.OfSmoke()), shareOf(reflected, scattered));
+}
+
 } // namespace
 
 std::vector<Box> PatchBounds(const Scene& scene)
@@ -273,8 +256,10 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
       [&](const Box& patch) { return inner.Contains(patch.Lower) && inner.Contains(patch.Upper); });
   }
   const Box& main = divided ? inner : box;
-  const std::size_t mainLines =
-    count(std::max(density * main.Surface(), LinesForPatches(scene, band, meetings, main, inside)));
+  // Outside of the smoke there is nothing else.
+  const double needed = std::min(1.0, SentByPatches(scene, field, band) / PatchesMatter);
+  const std::size_t mainLines = count(std::max(
+    density * main.Surface(), needed * LinesForPatches(scene, band, meetings, main, inside)));
   inside.flip();
   GlobalLines lines(
     box, divided ? count(LinesForPatches(scene, band, meetings, box, inside)) : mainLines);

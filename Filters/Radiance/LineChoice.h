@@ -15,10 +15,9 @@ struct LightField;
 
 /// Lines through the scene that cross a smoke cell of its mesh's mean size about 1.5 times and meet
 /// each patch that sends light on or out as often, in the mean; these more often below a tolerance
-/// of 0.03, so that they need not be put together (PatchGroups), and less often where they send on
-/// little of the light. Grids of much smaller cells get
-/// lines of their own, and so do the places where most light is sent on for the first time; some
-/// more join places far apart.
+/// of 0.03, so that they need not be put together (PatchGroups), and less often in smoke where they
+/// send on little of the light. Grids of much smaller cells get lines of their own, and so do the
+/// places where most light is sent on for the first time; some more join places far apart.
 /// @param field holds the direct light
 GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, double tolerance);
 

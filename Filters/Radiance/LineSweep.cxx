@@ -161,12 +161,13 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   {
     tallies.Cells[cell].Source += this->Emission_[cell];
   }
-  for (std::size_t cell = 0; this->Thick_.Any() && cell < fluence.size(); ++cell)
+  if (this->Thick_.Any())
   {
-    if (this->Thick_.IsThick(cell))
+    for (std::size_t cell = 0; cell < fluence.size(); ++cell)
     {
       // There is little but what it sends on.
-      tallies.Cells[cell].Expected = 2.0F * tallies.Cells[cell].Source;
+      LineTallies::Cell& own = tallies.Cells[cell];
+      own.Expected = this->Thick_.IsThick(cell) ? 2.0F * own.Source : own.Expected;
     }
   }
   this->ShapeSources(state, tallies);

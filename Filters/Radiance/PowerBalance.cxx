@@ -19,6 +19,9 @@ namespace
 /// A field is not scaled by more than this at once.
 constexpr double SmallestScale = 0.25;
 constexpr double LargestScale = 1e3;
+/// Standard error of a loss over itself up to which what each batch changes of it counts to first
+/// order.
+constexpr double LargestLinearError = 0.1;
 /// Share of the light sent out that must be lost, or else what leaks through rounded corners
 /// decides.
 constexpr double SmallestLoss = 1e-5;
@@ -199,15 +202,17 @@ PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) c
     scaled[batch] = plain[batch] * scales.Own[batch];
   }
   scales.CommonError = RelativeError(losses);
-  scales.Common = 1.0;
-  scales.Alike.fill(1.0);
-  if (scales.CommonError < 1.0)
+  scales.Common = scales.CommonError < 1.0 ? this->ScaleFor(Mean(losses)) : 1.0;
+  scales.Spreading.fill(scales.Common);
+  if (const double lost = Mean(losses); lost > 0.0 && scales.CommonError < LargestLinearError)
   {
-    const double lost = Mean(losses);
-    scales.Common = this->ScaleFor(lost);
-    std::transform(losses.begin(), losses.end(), scales.Alike.begin(),
-      [&](double own)
-      { return scales.Common * std::clamp(2.0 - own / lost, SmallestScale, LargestScale); });
+    DoubleLanes factors;
+    std::transform(losses.begin(), losses.end(), factors.begin(),
+      [lost](double own) { return std::max(SmallestScale, 2.0 - own / lost); });
+    const double mean = Mean(factors);
+    std::transform(factors.begin(), factors.end(), scales.Spreading.begin(),
+      [&](double factor)
+      { return std::clamp(scales.Common * factor / mean, SmallestScale, LargestScale); });
   }
   scales.Spread = RelativeError(plain);
   scales.OwnSpread = RelativeError(scaled);
@@ -244,7 +249,7 @@ void PowerBalance::ScaleLatest(
   this->ForEach(batches.size(),
     [&](std::size_t i)
     {
-      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Alike[i];
+      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Spreading[i];
       Multiply(batches[i].Fluence, scale);
       Multiply(batches[i].Illuminance, scale);
     });

@@ -49,9 +49,9 @@ public:
   void ExpectLoss(const std::vector<Powers>& powers) const;
   /// Throws Error where what is lost is far from what is emitted: light that does not settle.
   void ExpectBalance(const std::vector<Powers>& powers) const;
-  /// Scales the latest estimates by the means of the sweeps that count, the batches alike where
-  /// they do not agree better each for itself. Slow light stays for long at what it is scaled to,
-  /// so that the batches then differ by as much as that is uncertain.
+  /// Scales the latest estimates by the means of the sweeps that count: each batch for itself where
+  /// they then agree better; else in the mean as all together say, and each by what it changes of
+  /// that. Slow light stays for long at what it is scaled to, and all batches would be off alike.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
   /// Scales the sums, each batch for itself where they then agree better, else all alike where no
   /// light leaves the scene: then all of it is known to be lost there.
@@ -77,9 +77,9 @@ private:
     /// Of each batch, of all alike, and the relative standard error of the latter.
     DoubleLanes Own{};
     double Common = 1.0, CommonError = 0.0;
-    /// Of each batch that of all alike, less or more by what its loss changes of that to first
-    /// order: their spread is the error.
-    DoubleLanes Alike{};
+    /// Of each batch: in the mean that of all, by more or less as its own loss changes that to
+    /// first order, so that their spread is its error. Where that is large, the same of all.
+    DoubleLanes Spreading{};
     /// Relative standard error of what the batches send on, and of the same each with its own
     /// scale.
     double Spread = 0.0, OwnSpread = 0.0;

@@ -25,10 +25,10 @@ constexpr double LargestChangeAlone = 0.1;
 /// Share of either by which the depth in the middle of a block may be off the mean of those at its
 /// ends: there smoke is uneven inside the block.
 constexpr double BendShare = 0.1;
-/// Where borders tell that much less changes between two of them, by this factor, and that a second
-/// difference there is no more than such a bend, which is an eighth of it, no depth is looked at
-/// between them.
-constexpr double TellingShare = 4.0;
+/// Shares of the allowed change, and of the allowed bend, up to which no depth is looked at inside
+/// a block: of the change from border to border, and of the bend that borders beside tell.
+constexpr double ToldChange = 0.25;
+constexpr double ToldBend = 0.125;
 constexpr std::size_t FewestBlocks = 3;
 constexpr int MostHalvings = 5;
 constexpr std::size_t MostBlocks = 48;
@@ -94,7 +94,7 @@ SignSight::SignSight(
     : View_(view), Lights_(view.TheScene().Lights()), Plate_(sign), Eye_(eye),
       Across_(Lights_, sign, 0), Up_(Lights_, sign, 1), EdgeU_(sign.Corners[1] - sign.Corners[0]),
       EdgeV_(sign.Corners[3] - sign.Corners[0]), Pixels_(this->Pixels(acuity)),
-      Lit_(LitCells(Lights_, sign))
+      Fine_(blocks > UsualBlocks), Lit_(LitCells(Lights_, sign))
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, sign, eye);
   const PlateBorders borders = this->Borders(blocks);
@@ -209,22 +209,29 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
   // small part of what is too much: it need not be looked into.
   const auto tellsEven = [&](std::size_t block, double change)
   {
+    const auto width = [&](std::size_t of) { return borders[of + 1] - borders[of]; };
+    const auto rise = [&](std::size_t of, std::size_t line)
+    { return known[of + 1][line] - known[of][line]; };
     for (std::size_t line = 0; line < Lines.size(); ++line)
     {
-      double most = TellingShare * std::abs(known[block + 1][line] - known[block][line]);
-      for (std::size_t border = std::max<std::size_t>(block, 1);
-           border <= block + 1 && border + 1 < known.size(); ++border)
+      double bend = 0.0;
+      for (const std::size_t other : {block - 1, block + 1})
       {
-        most = std::max(most,
-          std::abs(known[border - 1][line] - 2.0 * known[border][line] + known[border + 1][line]) /
-            BendShare);
+        // The number before the first block's is larger than all.
+        if (other < borders.size() - 1)
+        {
+          const double steeper =
+            rise(other, line) / width(other) - rise(block, line) / width(block);
+          bend = std::max(bend, std::abs(steeper) * width(block) * width(block) /
+                                  (4.0 * (width(block) + width(other))));
+        }
       }
-      if (most > change)
+      if (std::abs(rise(block, line)) > ToldChange * change || bend > ToldBend * BendShare * change)
       {
         return false;
       }
     }
-    return known.size() > 2;
+    return true;
   };
   std::vector<double> cut;
   // Halves what lies between two borders where that is too much, and adds the borders after the
@@ -251,6 +258,8 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     self(self, middle, within, to, last, halvings - 1, change);
   };
   const bool told = this->Resolved() && borders.size() > FewestBlocks;
+  // Where smoke was found uneven, or one block has no other beside it, all are looked into.
+  const bool coarse = !this->Fine_ && borders.size() > 2;
   for (double change = told ? LargestChange : LargestChangeAlone;
        cut.empty() || cut.size() > MostBlocks + borders.size(); change *= 2.0)
   {
@@ -258,7 +267,7 @@ std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, in
     for (std::size_t i = 0; i + 1 < borders.size(); ++i)
     {
       add(add, borders[i], known[i], borders[i + 1], known[i + 1],
-        tellsEven(i, change) ? 0 : MostHalvings, change);
+        coarse && tellsEven(i, change) ? 0 : MostHalvings, change);
     }
   }
   return cut;

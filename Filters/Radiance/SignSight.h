@@ -102,6 +102,8 @@ private:
   Vec3 EdgeU_, EdgeV_;
   /// Of the observer's image along both edges; none where all detail is resolved.
   std::array<int, 2> Pixels_;
+  /// Whether there are many blocks, since smoke is uneven.
+  bool Fine_;
   std::vector<bool> Lit_;
   std::vector<Part> Parts_;
   std::vector<SeenPlace> Places_;

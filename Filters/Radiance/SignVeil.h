@@ -63,9 +63,9 @@ protected:
 };
 
 /// Veil over the whole plate. Far from the plate the smoke's light varies slowly over it and is
-/// interpolated between three by three rays, or between five of them where these say that it is
-/// nearly linear. Close to the plate the smoke glows in the pattern's
-/// shape, so that each column and row of it gets rays of its own.
+/// interpolated between three by three rays, of which six tell the others where it hardly bends.
+/// Close to the plate the smoke glows in the pattern's shape, so that each column and row of it
+/// gets rays of its own.
 class PlateVeil : public SignVeil
 {
 public:
@@ -75,9 +75,9 @@ public:
   Lanes At(std::size_t place) const override;
 
 private:
-  /// Tells the light of the ways between those to the corners, where that is found to be even
-  /// enough over the plate. Returns whether it is.
-  bool TellBetween();
+  /// Tells the light of three ways from that of the others, if the veil bends little enough over
+  /// the plate. Returns whether it does.
+  bool TellRest();
 
   /// Of the two Gauss points of a column by those of a row.
   static constexpr std::size_t Nodes = 4;

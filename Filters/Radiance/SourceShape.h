@@ -47,7 +47,7 @@ public:
   struct Shaped
   {
     std::int64_t Index = 0;
-    /// Of its centre, from the smoke's lower corner.
+    /// Its centre, from the smoke's lower corner [m].
     Vec3 Place{0.0};
     /// Whether direct light is known inside the cell: the shape is that of the rest.
     bool DirectVaries = false;

@@ -1,11 +1,13 @@
 // The veil over a sign's plate, from a few rays, against many.
 #include "SignVeil.h"
+#include "GaussNodes.h"
 #include "SceneLibrary.h"
 #include "View.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +119,59 @@ TEST(PlateVeil, BeforeBars)
           << extinction << ", " << lie << ", y " << eye.y;
       }
     }
+  }
+}
+
+/// Largest error of the veil before the places that rays are traced to of a plain dark plate, over
+/// the veil there, with a small lamp on the way to it, so many plate heights above the ray to its
+/// middle.
+double ErrorUnderLamp(double widthOverHeight, double heights)
+{
+  constexpr double Height = 0.3;
+  const Vec3 eye(3.0, 3.8, 1.0);
+  const Vec3 middle(3.0, 0.05, 1.0);
+  constexpr double Share = 0.6;
+  SceneDescription description;
+  description.Albedo = 0.9;
+  description.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 3}, {24, 16, 12}, 0.3)};
+  description.Emitters = {
+    scenes::Plate(middle, {0, 1, 0}, {0, 0, 1}, widthOverHeight * Height, Height, 1e-3, 0.0, 0),
+    scenes::Plate(glm::mix(eye, middle, Share) + Vec3(0, 0, heights * Share * Height), {0, 0, -1},
+      {0, 1, 0}, 0.02, 0.02, 1e4)};
+  const auto scene = std::make_shared<const Scene>(description);
+  LightFieldOptions options;
+  options.Tolerance = 0.1;
+  Progress progress;
+  const View view(scene, std::make_shared<LightField>(SolveLightField(*scene, options, progress)));
+  const Sign& sign = scene->Lights().Signs()[0];
+  const PlateColumns columns(scene->Lights(), sign, 0);
+  const PlateColumns rows(scene->Lights(), sign, 1);
+  std::vector<SeenPlace> places;
+  for (int i = 0; i < 9; ++i)
+  {
+    const glm::dvec2 at(Nodes3[i % 3], Nodes3[i / 3]);
+    places.push_back({at, OnPlate(sign, at.x, at.y), 1.0 / 9.0});
+  }
+  const PlateVeil told(view, eye, 0, places, sign, columns, rows);
+  const ShownVeil seen(view, eye, 0, places);
+  double largest = 0.0;
+  for (std::size_t place = 0; place < places.size(); ++place)
+  {
+    const double error = Mean(told.At(place)) / Mean(seen.At(place)) - 1.0;
+    largest = std::max(largest, std::abs(error));
+  }
+  return largest;
+}
+
+// Below a lamp that shines down, its veil along rays is a harmonic function of where they pass it:
+// it bends up along one edge of the plate as it bends down along the other, so that before the
+// middle of a square plate it is the mean of those before the corners.
+TEST(PlateVeil, UnderALamp)
+{
+  for (const auto& [ratio, heights] : {std::pair(1.0, 1.2), {1.0, 1.5}, {1.0, 2.0}, {1.0, 2.5},
+         {1.0, 3.0}, {1.1, 1.5}, {1.41, 1.95}, {2.0, 2.0}})
+  {
+    EXPECT_LT(ErrorUnderLamp(ratio, heights), 0.005) << ratio << ", " << heights;
   }
 }
 
