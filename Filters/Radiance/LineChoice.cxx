@@ -234,9 +234,7 @@ bool ScattersOften(const Scene& scene, int band)
 GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, double tolerance)
 {
   const Medium& smoke = scene.Smoke();
-  const double meetings = CrossingsPerSweep *
-                          std::clamp(FineTolerance / tolerance, 1.0, MostTimes) *
-                          std::min(1.0, SentByPatches(scene, field, band) / PatchesMatter);
+  const double meetings = CrossingsPerSweep * std::clamp(FineTolerance / tolerance, 1.0, MostTimes);
   const auto count = [](double lines)
   { return static_cast<std::size_t>(std::ceil(std::max(FewestLines, lines))); };
   std::vector<CellGroup> groups = CellGroups(smoke);
