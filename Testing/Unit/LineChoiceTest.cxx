@@ -11,15 +11,17 @@ namespace
 
 using namespace smokevis;
 
-/// A room with black walls, and in it a grey lamp of a square centimetre.
-SceneDescription RoomWithLamp(double extinction)
+/// A room with black walls, and in it a grey lamp.
+/// @param edge of the lamp [m]
+SceneDescription RoomWithLamp(double extinction, double edge = 0.01)
 {
   SceneDescription description;
   description.Albedo = 0.9;
   description.Grids = {scenes::UniformSmoke(Vec3(0.0), {4, 4, 3}, {8, 8, 6}, extinction)};
   scenes::AddRoom(description.Surfaces, Vec3(0.0), {4, 4, 3}, 1.0, 0.0);
   EmitterCell lamp;
-  lamp.Vertices = {{2.0, 2.0, 1.5}, {2.0, 2.01, 1.5}, {2.01, 2.01, 1.5}, {2.01, 2.0, 1.5}};
+  lamp.Vertices = {
+    {2.0, 2.0, 1.5}, {2.0, 2.0 + edge, 1.5}, {2.0 + edge, 2.0 + edge, 1.5}, {2.0 + edge, 2.0, 1.5}};
   lamp.Luminance = {1.0, 1.0, 1.0};
   lamp.Reflectance = {0.5, 0.5, 0.5};
   description.Emitters = {lamp};
@@ -63,6 +65,27 @@ TEST(LineChoice, SmallPatchesThatMatter)
   open.Surfaces = {};
   open.Sky = 1.0;
   EXPECT_GT(LinesOf(open, 0.0), Flood);
+}
+
+// A lamp of a square decimetre is to be met one and a half times by the lines through a room of
+// 80 m2, and a fifth more lines join far places: in proportion to the light that it sends on.
+TEST(LineChoice, FewerLinesInProportion)
+{
+  const SceneDescription smoky = RoomWithLamp(1.0, 0.1);
+  const double all = 1.2 * 1.5 * 80.0 / (2.0 * 0.01);
+  EXPECT_NEAR(static_cast<double>(LinesOf(smoky, 1e6)), all, 0.02 * all);
+  const double hundredth = 43.2 / 99.0 / (0.5 * 0.01);
+  EXPECT_NEAR(static_cast<double>(LinesOf(smoky, hundredth)), 0.5 * all, 0.02 * all);
+}
+
+// Outside of the smoke there is nothing else that sends light on, and lines have nothing else to
+// meet there.
+TEST(LineChoice, NoFewerOutsideOfTheSmoke)
+{
+  constexpr std::size_t Most = 20000;
+  SceneDescription description = RoomWithLamp(1.0);
+  description.Grids = {scenes::UniformSmoke(Vec3(0.0), {1, 1, 1}, {2, 2, 2}, 1.0)};
+  EXPECT_GT(LinesOf(description, 0.0), Most);
 }
 
 } // namespace
