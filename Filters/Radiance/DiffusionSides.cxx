@@ -70,19 +70,19 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
     double Area, Incident, Own;
   };
   std::vector<Bounds> bounds;
-  const double triangles =
-    static_cast<double>(scene.Surfaces().Triangles.size() + scene.EmitterMesh().Triangles.size());
+  // A repeated one may face the other way, and tell of light on a side that none comes to.
+  const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(scene);
+  const auto triangles = std::accumulate(patches.begin(), patches.end(), 0.0,
+    [](double sum, const std::vector<Triangle>& own)
+    { return sum + static_cast<double>(own.size()); });
   const double mostRows = std::clamp(std::floor(std::sqrt(MostPoints / triangles)), 1.0, MostRows);
   const double offset = 10.0 * scene.Shapes().Tolerance();
-  scene.ForEachTriangle(
-    [&](std::size_t patch, const Triangle& corners)
+  for (std::size_t patch = 0; patch < patches.size(); ++patch)
+  {
+    for (const Triangle& corners : patches[patch])
     {
       const Vec3 vector = AreaVector(corners);
       const double area = glm::length(vector);
-      if (!(area > 0.0))
-      {
-        return;
-      }
       const int rows = static_cast<int>(
         std::clamp(std::ceil(PartsAnEdge * ReachOf(corners) / edge), 1.0, mostRows));
       for (int which = 0; which < 2; ++which)
@@ -119,7 +119,8 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
             own->Own += part * share * reflectance * (DiffusionResistance(toSurface, 2.0) - 2.0);
           });
       }
-    });
+    }
+  }
   std::sort(bounds.begin(), bounds.end(),
     [](const Bounds& a, const Bounds& b)
     { return std::pair(a.Side, a.Block) < std::pair(b.Side, b.Block); });

@@ -5,6 +5,7 @@
 #include "TestReport.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -144,6 +145,29 @@ TEST(DegenerateShapes, SignInThePlaneOfItsWall)
       }
     }
     ExpectPlain(std::to_string(1e6 * offset) + " um", scene);
+  }
+}
+
+// A hollow block in dense white smoke, whose light diffusion completes: it is dark inside,
+// whichever way the copy of one of its triangles faces.
+TEST(DegenerateShapes, HollowBlockWithATwinTriangle)
+{
+  SceneDescription scene = Room();
+  scene.Albedo = 0.99;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {3, 2, 2}, {6, 4, 4}, 10.0)};
+  scenes::AddBlock(scene.Surfaces, {1.3, 0.8, 0.6}, {1.7, 1.2, 0.9}, 1.0, 0.98);
+  scene.Surfaces.Triangles.push_back(scene.Surfaces.Triangles.back());
+  std::swap(scene.Surfaces.Triangles.back()[0], scene.Surfaces.Triangles.back()[1]);
+  scene.Surfaces.TriangleCell.push_back(scene.Surfaces.TriangleCell.back());
+  const Solved solved(scene, 0.03);
+  EXPECT_GT(WorkCount(solved.Field->Report, "blocks of diffusion"), 0.0);
+  const double outside = solved.Fluence(Vec3(1.2, 1.0, 0.7)).Mean;
+  for (const Vec3 inside : {Vec3(1.4, 0.9, 0.7), {1.6, 1.1, 0.8}})
+  {
+    const Estimate fluence = solved.Fluence(inside);
+    // Rounding lets a hundred-thousandth through its edges.
+    EXPECT_LT(std::abs(fluence.Mean), 1e-3 * outside);
+    EXPECT_LT(fluence.StandardError, 1e-3 * outside);
   }
 }
 
