@@ -70,13 +70,12 @@ DiffusionSides::DiffusionSides(const Scene& scene, int band,
     double Area, Incident, Own;
   };
   std::vector<Bounds> bounds;
-  // A repeated one may face the other way, and tell of light on a side that none comes to.
-  const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(scene);
-  const auto triangles = std::accumulate(patches.begin(), patches.end(), 0.0,
-    [](double sum, const std::vector<Triangle>& own)
-    { return sum + static_cast<double>(own.size()); });
+  const double triangles =
+    static_cast<double>(scene.Surfaces().Triangles.size() + scene.EmitterMesh().Triangles.size());
   const double mostRows = std::clamp(std::floor(std::sqrt(MostPoints / triangles)), 1.0, MostRows);
   const double offset = 10.0 * scene.Shapes().Tolerance();
+  // A repeated one may face the other way, and tell of light on a side that none comes to.
+  const std::vector<std::vector<Triangle>> patches = TrianglesOfPatches(scene);
   for (std::size_t patch = 0; patch < patches.size(); ++patch)
   {
     for (const Triangle& corners : patches[patch])

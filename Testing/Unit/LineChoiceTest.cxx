@@ -43,6 +43,14 @@ std::size_t LinesOf(const SceneDescription& description, double onLamp)
   return ChooseLines(scene, field, 0, 0.03).Count();
 }
 
+/// Direct illuminance of the lamp at which it sends on a hundredth of all light in the smoky room
+/// [lx].
+/// @param edge of the lamp [m]
+double ForAHundredth(double edge)
+{
+  return 43.2 / 99.0 / (0.5 * edge * edge);
+}
+
 // A flood of lines would be needed to meet the lamp; it is drawn where the lamp matters: where
 // nothing else sends light on, where most light comes to it, and where nobody knows yet where light
 // comes to, under a sky and in smoke that glows.
@@ -56,8 +64,8 @@ TEST(LineChoice, SmallPatchesThatMatter)
   EXPECT_GT(LinesOf(smoky, 1e7), Flood);
   EXPECT_GT(LinesOf(RoomWithLamp(0.0), 1.0), Flood);
   // One that sends a hundredth of all light gets half of them.
-  const double hundredth = 43.2 / 99.0 / (0.5 * 1e-4);
-  EXPECT_NEAR(static_cast<double>(LinesOf(smoky, hundredth)), 1.2 * 0.5 * Flood, 0.05 * Flood);
+  EXPECT_NEAR(
+    static_cast<double>(LinesOf(smoky, ForAHundredth(0.01))), 1.2 * 0.5 * Flood, 0.05 * Flood);
   SceneDescription glowing = smoky;
   glowing.Grids[0].EmittedLuminance.assign(glowing.Grids[0].Extinction.size(), 1.0F);
   EXPECT_GT(LinesOf(glowing, 0.0), Flood);
@@ -74,8 +82,7 @@ TEST(LineChoice, FewerLinesInProportion)
   const SceneDescription smoky = RoomWithLamp(1.0, 0.1);
   const double all = 1.2 * 1.5 * 80.0 / (2.0 * 0.01);
   EXPECT_NEAR(static_cast<double>(LinesOf(smoky, 1e6)), all, 0.02 * all);
-  const double hundredth = 43.2 / 99.0 / (0.5 * 0.01);
-  EXPECT_NEAR(static_cast<double>(LinesOf(smoky, hundredth)), 0.5 * all, 0.02 * all);
+  EXPECT_NEAR(static_cast<double>(LinesOf(smoky, ForAHundredth(0.1))), 0.5 * all, 0.02 * all);
 }
 
 // Outside of the smoke there is nothing else that sends light on, and lines have nothing else to
