@@ -150,12 +150,26 @@ std::vector<Sight> DirectLight::SightsFrom(
   const Medium& smoke = this->Scene_.Smoke();
   // What lies behind the plate gets none of it, seen or not.
   std::vector<Sight> sights(cells.size(), Sight::Whole);
+  const auto placeIn = [](const Box& box) { return box.Centre() + OffCentre * box.Size(); };
+  Box places = Box::Nothing();
+  bool small = true;
+  for (const std::int64_t cell : cells)
+  {
+    const Vec3 place = placeIn(smoke.CellBounds(cell));
+    places.Add({place, place});
+    small = small && LightSight::Small(root, place);
+  }
+  // Many lines lead to a close light.
+  if (!small && root.Plane() && this->Scene_.Shapes().Free({root.Corners, root.Normal, places}))
+  {
+    return sights;
+  }
   std::vector<LineOfSight> lines;
   std::vector<std::size_t> ofLine;
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const Box box = smoke.CellBounds(cells[i]);
-    const Vec3 place = box.Centre() + OffCentre * box.Size();
+    const Vec3 place = placeIn(box);
     if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(box.Size()))
     {
       continue;

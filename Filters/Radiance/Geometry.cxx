@@ -161,6 +161,8 @@ TriangleTree::TriangleTree(const Device& device, const SurfaceMesh& mesh, bool e
     this->Normals_.push_back(glm::normalize(
       glm::cross(mesh.Points[triangle[1]] - corner, mesh.Points[triangle[2]] - corner)));
   }
+  this->Vertices_ = vertices;
+  this->Indices_ = indices;
   rtcCommitGeometry(geometry);
   // Embree 3 uses the device while it takes a scene apart, but holds on to it only until then: it
   // has to end after the scene.

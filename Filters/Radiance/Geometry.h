@@ -2,8 +2,10 @@
 #pragma once
 
 #include "SurfaceMesh.h"
+#include "Triangle.h"
 #include "Types.h"
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -46,6 +48,15 @@ struct RayPiece
   double Begin, End;
 };
 
+/// All straight lines between a plane plate and a box.
+struct Shaft
+{
+  std::array<Vec3, 4> Plate;
+  /// To where the box lies.
+  Vec3 Normal;
+  Box Before;
+};
+
 /// Triangles in double precision with their search structure, which works in single precision.
 class TriangleTree
 {
@@ -82,13 +93,22 @@ public:
   /// @param trees of one scene, with the same centre, at least one
   static std::vector<bool> Clear(
     std::initializer_list<const TriangleTree*> trees, std::span<const RayPiece> pieces);
+  /// Whether it is told quickly that no triangle reaches into a shaft, but for its plate's plane.
+  bool Free(const Shaft& shaft) const;
 
 private:
+  struct ShaftSearch;
+
+  /// Corners of a triangle from the scene's centre, to single precision.
+  Triangle FromCentre(std::uint32_t triangle) const;
   /// A hit at a distance that is known to single precision.
   Hit MakeHit(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::uint32_t triangle, double rough) const;
 
   std::shared_ptr<RTCSceneTy> Tree_;
+  /// Embree's own: three of each point and triangle.
+  const float* Vertices_ = nullptr;
+  const unsigned* Indices_ = nullptr;
   std::vector<std::size_t> Triangles_;
   std::vector<Vec3> Corners_, Normals_;
   std::vector<std::uint32_t> Cells_;
@@ -161,6 +181,9 @@ public:
   /// The same of each of many lines; those beside one another cost a fraction of lines asked for
   /// one by one.
   std::vector<bool> Visible(std::span<const LineOfSight> lines) const;
+  /// Whether all lines of a shaft are clear, but for what touches the plate. False where that is
+  /// not told quickly: where shapes are near, or the box does not lie before the plate.
+  bool Free(const Shaft& shaft) const;
   /// Whether rays into these directions, unit vectors, meet backs of surfaces alone, as they do
   /// within a solid. Plates tell nothing.
   bool SeesBacks(const Vec3& point, std::span<const Vec3> directions) const;

@@ -1,0 +1,118 @@
+// Shafts: what is told of all lines between a plate and a box at once.
+#include "Geometry.h"
+
+#include <array>
+#include <cstdint>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+void AddTriangle(SurfaceMesh& mesh, const Triangle& corners)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+  mesh.Points.insert(mesh.Points.end(), corners.begin(), corners.end());
+  mesh.Triangles.push_back({first, first + 1, first + 2});
+  mesh.TriangleCell.push_back(static_cast<std::uint32_t>(mesh.CellReflectance.size()));
+  mesh.CellReflectance.push_back({0.5, 0.5, 0.5});
+}
+
+/// A lamp of 1 m under a ceiling at 3 m, and a box of half a metre below it.
+Shaft Below()
+{
+  return {{Vec3(0.0, 0.0, 3.0), Vec3(0.0, 1.0, 3.0), Vec3(1.0, 1.0, 3.0), Vec3(1.0, 0.0, 3.0)},
+    {0.0, 0.0, -1.0}, {Vec3(2.0, 0.0, 1.0), Vec3(2.5, 0.5, 1.5)}};
+}
+
+/// A ceiling, a wall behind the box, and a table under it.
+SurfaceMesh Room()
+{
+  SurfaceMesh mesh;
+  AddTriangle(mesh, {Vec3(-9.0, -9.0, 3.0), Vec3(9.0, -9.0, 3.0), Vec3(0.0, 9.0, 3.0)});
+  AddTriangle(mesh, {Vec3(2.6, -9.0, -9.0), Vec3(2.6, 9.0, -9.0), Vec3(2.6, 0.0, 9.0)});
+  AddTriangle(mesh, {Vec3(-9.0, -9.0, 0.9), Vec3(9.0, -9.0, 0.9), Vec3(0.0, 9.0, 0.9)});
+  return mesh;
+}
+
+} // namespace
+
+TEST(GeometryShafts, WhatLiesBesideAShaftLeavesItFree)
+{
+  const Geometry shapes(Room(), {});
+  EXPECT_TRUE(shapes.Free(Below()));
+  EXPECT_TRUE(Geometry().Free(Below()));
+}
+
+TEST(GeometryShafts, WhatLiesInAShaftIsMet)
+{
+  SurfaceMesh mesh = Room();
+  // No wider than a hand.
+  AddTriangle(mesh, {Vec3(1.4, 0.4, 2.1), Vec3(1.5, 0.4, 2.1), Vec3(1.4, 0.5, 2.2)});
+  EXPECT_FALSE(Geometry(mesh, {}).Free(Below()));
+  // A plate hides as a surface does.
+  SurfaceMesh plates;
+  AddTriangle(plates, {Vec3(1.4, 0.4, 2.1), Vec3(1.5, 0.4, 2.1), Vec3(1.4, 0.5, 2.2)});
+  EXPECT_FALSE(Geometry(Room(), plates).Free(Below()));
+}
+
+TEST(GeometryShafts, ABoxThatThePlatesPlaneMeetsIsNot)
+{
+  Shaft shaft = Below();
+  shaft.Before.Upper.z = 3.1;
+  EXPECT_FALSE(Geometry(Room(), {}).Free(shaft));
+}
+
+TEST(GeometryShafts, ManyTrianglesNearAShaftAreNotAllLookedAt)
+{
+  SurfaceMesh mesh;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const double x = 1e-3 * i;
+    AddTriangle(mesh, {Vec3(x, 0.0, 0.9), Vec3(x, 0.4, 0.9), Vec3(x, 0.2, 0.8)});
+  }
+  EXPECT_FALSE(Geometry(mesh, {}).Free(Below()));
+}
+
+/// Free shafts hold no line that is not clear, among random triangles; and many are free.
+TEST(GeometryShafts, AllLinesOfFreeOnesAreClear)
+{
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto place = [&] { return Vec3(share(random), share(random), share(random)); };
+  int free = 0;
+  constexpr int Scenes = 400;
+  for (int scene = 0; scene < Scenes; ++scene)
+  {
+    SurfaceMesh mesh;
+    for (int triangle = 0; triangle < 5; ++triangle)
+    {
+      const Vec3 corner = 4.0 * place();
+      AddTriangle(mesh, {corner, corner + 2.0 * place() - 1.0, corner + 2.0 * place() - 1.0});
+    }
+    const Geometry shapes(mesh, {});
+    const Vec3 along = glm::normalize(place() - 0.5);
+    const Vec3 normal = glm::normalize(glm::cross(along, place() - 0.5));
+    const Vec3 up = 0.5 * glm::cross(normal, along);
+    const Vec3 corner = 1.0 + 2.0 * place();
+    Shaft shaft{{corner, corner + along, corner + along + up, corner + up}, normal, {}};
+    shaft.Before.Lower = corner + 2.0 * normal + place();
+    shaft.Before.Upper = shaft.Before.Lower + 0.5 * place();
+    if (!shapes.Free(shaft))
+    {
+      continue;
+    }
+    ++free;
+    for (int line = 0; line < 100; ++line)
+    {
+      const Vec3 from = shaft.Before.Lower + place() * shaft.Before.Size();
+      const Vec3 to = corner + share(random) * along + share(random) * up;
+      EXPECT_TRUE(shapes.Visible(from, to)) << scene;
+    }
+  }
+  EXPECT_GT(free, Scenes / 3);
+  EXPECT_LT(free, Scenes);
+}
