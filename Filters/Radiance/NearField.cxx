@@ -22,6 +22,8 @@ constexpr int Steps = 5;
 /// Steps of the innermost from the plate to its end, each longer than the one before: in smoke,
 /// light falls off most steeply right at the plate.
 constexpr int GradedSteps = 10;
+/// The innermost level of a single leaf reaches so far, in shares of its shorter edge.
+constexpr double SingleLeafShare = 0.125;
 /// How many times as many steps a light takes that is not Lambertian: what is left of it over that
 /// of an even plate falls off with the angle.
 constexpr int LawSteps = 2;
@@ -141,12 +143,14 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   {
     this->PatternLength_ = finest;
   }
-  double first = std::max(finest, finer * InnermostSteps * longest / MostStepsAcross);
+  const double pattern = root.FirstChild >= 0 ? finest : SingleLeafShare * finest;
+  double first = std::max(pattern, finer * InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {
-    const double step = this->Levels_.empty() ? distance / (finer * InnermostSteps)
-                                              : std::min(longestStep, distance / (finer * Steps));
+    const double step = this->Levels_.empty()
+                          ? std::max(first, std::min(finest, reach)) / (finer * InnermostSteps)
+                          : std::min(longestStep, distance / (finer * Steps));
     if (this->Extinction_ * scene.LargestScale() * step > ThickStep)
     {
       break;
