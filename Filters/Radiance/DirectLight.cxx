@@ -15,6 +15,8 @@ namespace
 
 /// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
 constexpr double WaysEdges = 1.0;
+/// A wider one is looked at so only above this r/d, where many parts of it ask for ways.
+constexpr double CloseRatio = 0.7;
 /// Those to its corners tell of all where they tell of that to its middle, to this optical depth,
 /// and differ by no more than so much: else smoke may vary between them as well.
 constexpr double ToldDepth = 0.002;
@@ -64,12 +66,13 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
 {
   const Medium& smoke = this->Scene_.Smoke();
   const std::int64_t cell = smoke.Locate(point);
-  if (cell < 0 || root.FirstChild < 0)
+  if (cell < 0)
   {
     return std::nullopt;
   }
-  const Vec3 size = smoke.CellSize(cell);
-  if (root.Radius > WaysEdges * LargestEdge(size))
+  const double distance = glm::length(root.Centre - point);
+  const bool wide = root.Radius > WaysEdges * LargestEdge(smoke.CellSize(cell));
+  if (wide ? root.Radius < CloseRatio * distance : root.FirstChild < 0)
   {
     return std::nullopt;
   }
@@ -83,8 +86,8 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   const auto walk = [&](int i, int j)
   {
     const Vec3 to = ways.Corner + Nodes3[i] * along + Nodes3[j] * up - point;
-    const double distance = glm::length(to);
-    extinction[j][i] = smoke.OpticalDepth(point, to / distance, 0.0, distance) / distance;
+    const double length = glm::length(to);
+    extinction[j][i] = smoke.OpticalDepth(point, to / length, 0.0, length) / length;
   };
   for (const int j : {0, 2})
   {
@@ -96,20 +99,32 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     extinction[0][0], extinction[0][2], extinction[2][0], extinction[2][2]};
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
   const double even = 0.25 * std::accumulate(corners.begin(), corners.end(), 0.0);
-  const double scale = this->Scene_.LargestScale() * glm::length(root.Centre - point);
+  const double scale = this->Scene_.LargestScale() * distance;
   const bool told =
     scale * std::abs(extinction[1][1] - even) < ToldDepth && scale * (*most - *least) < AlikeDepth;
+  if (wide && !told)
+  {
+    return std::nullopt;
+  }
   for (const int side : {0, 2})
   {
-    if (told)
+    const double alongSide = 0.5 * (extinction[side][0] + extinction[side][2]);
+    const double upSide = 0.5 * (extinction[0][side] + extinction[2][side]);
+    if (told && !wide)
     {
-      extinction[side][1] = 0.5 * (extinction[side][0] + extinction[side][2]);
-      extinction[1][side] = 0.5 * (extinction[0][side] + extinction[2][side]);
+      extinction[side][1] = alongSide;
+      extinction[1][side] = upSide;
+      continue;
     }
-    else
+    walk(1, side);
+    walk(side, 1);
+    // Between so few ways to a wide plate there may be anything, unless they all tell of each
+    // other.
+    if (wide && scale * std::max(std::abs(extinction[side][1] - alongSide),
+                          std::abs(extinction[1][side] - upSide)) >=
+                  ToldDepth)
     {
-      walk(1, side);
-      walk(side, 1);
+      return std::nullopt;
     }
   }
   std::array<std::array<double, 3>, 3> rows;
