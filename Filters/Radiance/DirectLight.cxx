@@ -99,7 +99,8 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     extinction[0][0], extinction[0][2], extinction[2][0], extinction[2][2]};
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
   const double even = 0.25 * std::accumulate(corners.begin(), corners.end(), 0.0);
-  const double scale = this->Scene_.LargestScale() * distance;
+  // Ways to a wide plate's edges are the longer, the closer it is.
+  const double scale = this->Scene_.LargestScale() * (distance + (wide ? root.Radius : 0.0));
   const bool told =
     scale * std::abs(extinction[1][1] - even) < ToldDepth && scale * (*most - *least) < AlikeDepth;
   if (wide && !told)
@@ -108,21 +109,20 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   }
   for (const int side : {0, 2})
   {
-    const double alongSide = 0.5 * (extinction[side][0] + extinction[side][2]);
-    const double upSide = 0.5 * (extinction[0][side] + extinction[2][side]);
+    const double acrossRow = 0.5 * (extinction[side][0] + extinction[side][2]);
+    const double acrossColumn = 0.5 * (extinction[0][side] + extinction[2][side]);
     if (told && !wide)
     {
-      extinction[side][1] = alongSide;
-      extinction[1][side] = upSide;
+      extinction[side][1] = acrossRow;
+      extinction[1][side] = acrossColumn;
       continue;
     }
     walk(1, side);
     walk(side, 1);
-    // Between so few ways to a wide plate there may be anything, unless they all tell of each
-    // other.
-    if (wide && scale * std::max(std::abs(extinction[side][1] - alongSide),
-                          std::abs(extinction[1][side] - upSide)) >=
-                  ToldDepth)
+    // Between so few ways to a wide plate there may be anything, unless all tell of each other.
+    const double off = std::max(
+      std::abs(extinction[side][1] - acrossRow), std::abs(extinction[1][side] - acrossColumn));
+    if (wide && scale * off >= ToldDepth)
     {
       return std::nullopt;
     }

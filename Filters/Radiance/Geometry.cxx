@@ -285,6 +285,52 @@ std::vector<bool> TriangleTree::Clear(
   return clear;
 }
 
+bool TriangleTree::AllNear(
+  const Vec3& place, double radius, const std::function<bool(const Triangle&)>& holds) const
+{
+  if (this->Empty())
+  {
+    return true;
+  }
+  struct Question
+  {
+    const TriangleTree& Tree;
+    const std::function<bool(const Triangle&)>& Holds;
+    bool OfAll = true;
+  };
+  Question question{*this, holds};
+  const auto ask = [](RTCPointQueryFunctionArguments* arguments)
+  {
+    auto& asked = *static_cast<Question*>(arguments->userPtr);
+    Triangle corners;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      const std::size_t point = asked.Tree.Indices_[3 * std::size_t{arguments->primID} + corner];
+      const float* const at = asked.Tree.Vertices_ + 3 * point;
+      corners[corner] = Vec3(at[0], at[1], at[2]) + asked.Tree.Centre_;
+    }
+    if (asked.OfAll && asked.Holds(corners))
+    {
+      return false;
+    }
+    asked.OfAll = false;
+    // Nothing is that near: the search ends.
+    arguments->query->radius = 0.0F;
+    return true;
+  };
+  const Vec3 centre = place - this->Centre_;
+  RTCPointQuery query;
+  query.x = static_cast<float>(centre.x);
+  query.y = static_cast<float>(centre.y);
+  query.z = static_cast<float>(centre.z);
+  query.time = 0.0F;
+  query.radius = static_cast<float>(radius);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(this->Tree_.get(), &query, &context, ask, &question);
+  return question.OfAll;
+}
+
 Geometry::Geometry(
   const SurfaceMesh& surfaces, const SurfaceMesh& emitters, double sceneSize, double coreSize)
 {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -93,14 +94,13 @@ public:
   /// @param trees of one scene, with the same centre, at least one
   static std::vector<bool> Clear(
     std::initializer_list<const TriangleTree*> trees, std::span<const RayPiece> pieces);
-  /// Whether it is told quickly that no triangle reaches into a shaft, but for its plate's plane.
-  bool Free(const Shaft& shaft) const;
+  /// Whether something holds for all triangles near to a place, whose corners are known to single
+  /// precision; those after the first for which it does not are not asked.
+  /// @param radius around the place within which triangles are near; some beyond are asked, too [m]
+  bool AllNear(
+    const Vec3& place, double radius, const std::function<bool(const Triangle&)>& holds) const;
 
 private:
-  struct ShaftSearch;
-
-  /// Corners of a triangle from the scene's centre, to single precision.
-  Triangle FromCentre(std::uint32_t triangle) const;
   /// A hit at a distance that is known to single precision.
   Hit MakeHit(const Vec3& origin, const Vec3& direction, double begin, double end,
     std::uint32_t triangle, double rough) const;

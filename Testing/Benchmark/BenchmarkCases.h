@@ -77,11 +77,18 @@ SceneDescription FineHall(double time);
 /// The places of a map of the hall at eye level, 1.7 m.
 FloorMapOptions HallPlaces(int across, int along, int threads);
 
+/// A furnished office of 5 x 4 x 3 m in cells of 0.1 m, with smoke that is thick above some 1.6 m,
+/// four lamps of 0.6 m under its ceiling, each wider than many cells, and two signs.
+SceneDescription Office();
+/// Places of the office, half a metre apart, at 1.5 m.
+FloorMapOptions OfficePlaces(int threads);
+
 /// tunnel: 64 x 64 pixels, error of pixels and of the veil before dark bars, beside the reference
 /// integrator.
 void RunTunnel(const Settings& settings);
-/// hall12, hall110, hall10m: floor maps, beside the reference integrator.
-void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine);
+/// hall12, hall110, hall10m, office: a floor map, beside the reference integrator.
+void RunMap(const Settings& settings, const std::string& name, const SceneDescription& scene,
+  const FloorMapOptions& places);
 /// growth: time over cells, views, emitters, triangles, optical depth and albedo.
 void RunGrowth(const Settings& settings);
 /// threads: one thread against two.

@@ -1,6 +1,7 @@
 #include "BenchmarkCases.h"
 
 #include "ExtinctionSource.h"
+#include "Places.h"
 #include "SolidCells.h"
 #include "SrgbColor.h"
 #include "WallBuilder.h"
@@ -148,6 +149,58 @@ FloorMapOptions HallPlaces(int across, int along, int threads)
   // The reference integrator resolves all detail, too.
   options.Eye.Acuity = 0.0;
   options.Threads = threads;
+  return options;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription Office()
+{
+  SceneDescription scene;
+  scene.Albedo = 0.6;
+  const Vec3 size(5.0, 4.0, 3.0);
+  SmokeGrid smoke = scenes::UniformSmoke(Vec3(0.0), size, {50, 40, 30}, 0.0);
+  std::size_t cell = 0;
+  ForEachPlace({50, 40, 30},
+    [&](const std::array<int, 3>& place)
+    {
+      const Vec3 at = 0.1 * (Vec3(place[0], place[1], place[2]) + 0.5);
+      const double layer = 1.6 + 0.1 * std::sin(2.0 * at.x) * std::cos(1.7 * at.y);
+      const double share = 1.0 / (1.0 + std::exp((layer - at.z) / 0.15));
+      const double swirls = 1.0 + 0.15 * std::sin(3.0 * at.x + 1.0) * std::sin(2.3 * at.y + at.z);
+      smoke.Extinction[cell++] = static_cast<float>(0.05 + 0.8 * share * swirls);
+    });
+  scene.Grids.push_back(std::move(smoke));
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), size, 0.5, 0.5);
+  // A table, two cupboards and a beam.
+  scenes::AddBlock(scene.Surfaces, {1.0, 1.0, 0.0}, {2.2, 1.8, 0.8}, 0.4, 0.4);
+  scenes::AddBlock(scene.Surfaces, {3.0, 2.5, 0.0}, {3.6, 3.6, 1.9}, 0.4, 0.4);
+  scenes::AddBlock(scene.Surfaces, {0.0, 3.2, 0.0}, {1.0, 4.0, 2.0}, 0.4, 0.4);
+  scenes::AddBlock(scene.Surfaces, {2.0, 0.0, 2.5}, {2.3, 4.0, 3.0}, 0.4, 0.4);
+  for (const double x : {1.2, 3.8})
+  {
+    for (const double y : {1.2, 2.8})
+    {
+      scene.Emitters.push_back(
+        scenes::Plate({x, y, 2.9}, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, 2000.0, 0.5));
+    }
+  }
+  const auto sign = [&scene](const Vec3& centre, const Vec3& normal, int number)
+  {
+    const auto bars = scenes::Barcode(centre, normal, {0, 0, 1}, 0.4, 0.2, 9, 50.0, number, 0.1);
+    scene.Emitters.insert(scene.Emitters.end(), bars.begin(), bars.end());
+  };
+  sign({2.5, 3.99, 2.2}, {0, -1, 0}, 0);
+  sign({4.99, 2.0, 2.2}, {-1, 0, 0}, 1);
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
+FloorMapOptions OfficePlaces(int threads)
+{
+  FloorMapOptions options = HallPlaces(10, 8, threads);
+  options.StepX = 0.5;
+  options.StepY = 0.5;
+  options.FirstPlace = {0.25, 0.25, 1.5};
   return options;
 }
 

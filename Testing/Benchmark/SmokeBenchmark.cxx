@@ -22,13 +22,23 @@ struct Case
 const std::map<std::string, Case> Cases = {
   {"tunnel",
     {RunTunnel, {.Tolerances = {0.1, 0.03, 0.02, 0.01, 0.003}, .ReferenceTolerance = 0.001}}},
-  {"hall12", {[](const Settings& settings) { RunHall(settings, "hall12", 12, 8, false); },
-               {.Samples = {1, 4, 16, 64, 256}}}},
-  {"hall110", {[](const Settings& settings) { RunHall(settings, "hall110", 110, 70, false); },
-                {.Samples = {1, 4, 16}, .Seeds = 2}}},
+  {"hall12",
+    {[](const Settings& settings)
+      { RunMap(settings, "hall12", Hall(settings.Time), HallPlaces(12, 8, settings.Threads)); },
+      {.Samples = {1, 4, 16, 64, 256}}}},
+  {"hall110",
+    {[](const Settings& settings)
+      { RunMap(settings, "hall110", Hall(settings.Time), HallPlaces(110, 70, settings.Threads)); },
+      {.Samples = {1, 4, 16}, .Seeds = 2}}},
   // Ten million cells say enough of themselves; a finer reference would take hours.
-  {"hall10m", {[](const Settings& settings) { RunHall(settings, "hall10m", 12, 8, true); },
+  {"hall10m", {[](const Settings& settings) {
+                 RunMap(settings, "hall10m", FineHall(settings.Time),
+                   HallPlaces(12, 8, settings.Threads));
+               },
                 {.ReferenceTolerance = 0.004, .Seeds = 1}}},
+  {"office", {[](const Settings& settings)
+               { RunMap(settings, "office", Office(), OfficePlaces(settings.Threads)); },
+               {.Seeds = 2}}},
   {"growth", {RunGrowth, {}}},
   {"threads", {RunThreads, {}}},
   {"steps", {RunSteps, {}}},
@@ -95,7 +105,7 @@ void PrintUsage()
 {
   std::fprintf(stderr,
     "SmokeBenchmark --case A,B,... [options]\n"
-    "  cases: tunnel hall12 hall110 hall10m growth threads steps skips\n"
+    "  cases: tunnel hall12 hall110 hall10m office growth threads steps skips\n"
     "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver (tunnel, halls)\n"
     "  --samples 1,4,16,64               samples a pixel, or a point of a sign, of the reference\n"
     "                                    integrator (tunnel, halls); empty: without it\n"

@@ -41,11 +41,12 @@ def plot_tunnel(folder):
     save(figure, folder, "tunnel")
 
 
-def plot_halls(folder):
-    """Error of contrast against time for the maps of the hall."""
-    maps = {name: read(folder, name) for name in ("hall12", "hall110", "hall10m")}
-    titles = {"hall12": "12 x 8 places", "hall110": "110 x 70 places",
-              "hall10m": "12 x 8 places, 10 million cells"}
+def plot_maps(folder):
+    """Error of contrast against time for the maps."""
+    titles = {"hall12": "hall, 12 x 8 places", "hall110": "hall, 110 x 70 places",
+              "hall10m": "hall, 12 x 8 places, 10 million cells",
+              "office": "office, 10 x 8 places"}
+    maps = {name: read(folder, name) for name in titles}
     if not any(maps.values()):
         return
     figure, axis = pyplot.subplots(figsize=(7, 6))
@@ -55,11 +56,11 @@ def plot_halls(folder):
             if chosen:
                 axis.loglog(numbers(chosen, "processor_s"), numbers(chosen, "contrast_error"),
                             style, color=f"C{index}", label=f"{titles[name]}, {method}")
-    axis.set(title="Hall with eight signs", xlabel="processor seconds (light field and map)",
+    axis.set(title="Floor maps", xlabel="processor seconds (light field and map)",
              ylabel="error of contrast (rms)")
     axis.grid(True, which="both", alpha=0.3)
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, fontsize="small")
-    save(figure, folder, "hall")
+    save(figure, folder, "maps")
 
 
 def plot_growth(folder):
@@ -94,5 +95,5 @@ def save(figure, folder, name):
 
 if __name__ == "__main__":
     plot_tunnel(sys.argv[1])
-    plot_halls(sys.argv[1])
+    plot_maps(sys.argv[1])
     plot_growth(sys.argv[1])

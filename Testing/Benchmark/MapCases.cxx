@@ -1,5 +1,4 @@
-// Floor maps of the hall: run time and memory against the error of contrast, beside the reference
-// integrator.
+// Floor maps: run time and memory against the error of contrast, beside the reference integrator.
 #include "BenchmarkCases.h"
 
 #include "ReferenceContrast.h"
@@ -131,14 +130,13 @@ void TraceMaps(const Settings& settings, const SceneDescription& description,
 } // namespace
 
 //--------------------------------------------------------------------------------------------------
-void RunHall(const Settings& settings, const std::string& name, int across, int along, bool fine)
+void RunMap(const Settings& settings, const std::string& name, const SceneDescription& scene,
+  const FloorMapOptions& places)
 {
   ResultTable table(settings.Out + "/" + name + ".csv",
     {"method", "setting", "seeds", "threads", "setup_s", "field_s", "map_s", "total_s",
       "processor_s", "contrast_error", "largest_contrast_error", "visibility_error",
       "error_over_bar", "peak_MiB"});
-  const FloorMapOptions places = HallPlaces(across, along, settings.Threads);
-  const SceneDescription scene = fine ? FineHall(settings.Time) : Hall(settings.Time);
   Progress progress;
   FloorMap reference;
   if (settings.ReferenceTolerance > 0.0)
