@@ -17,6 +17,8 @@ namespace
 constexpr double WaysEdges = 1.0;
 /// A wider one is looked at so only above this r/d, where many parts of it ask for ways.
 constexpr double CloseRatio = 0.7;
+/// By how much the edges of a leaf may be off a rectangle's, in shares of them.
+constexpr double EdgeShare = 1e-6;
 /// Those to its corners tell of all where they tell of that to its middle, to this optical depth,
 /// and differ by no more than so much: else smoke may vary between them as well.
 constexpr double ToldDepth = 0.002;
@@ -25,6 +27,15 @@ constexpr double AlikeDepth = 0.04;
 /// most: by the way to their centre and its slopes their means are right to some percent.
 constexpr double FineTolerance = 0.05;
 constexpr double MostTimes = 2.0;
+
+bool IsRectangle(const std::array<Vec3, 4>& corners)
+{
+  const Vec3 along = corners[1] - corners[0];
+  const Vec3 up = corners[3] - corners[0];
+  const double longest = std::max(glm::length(along), glm::length(up));
+  return std::abs(glm::dot(along, up)) <= EdgeShare * glm::length(along) * glm::length(up) &&
+         glm::length(corners[2] - corners[1] - up) <= EdgeShare * longest;
+}
 
 } // namespace
 
@@ -72,7 +83,9 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   }
   const double distance = glm::length(root.Centre - point);
   const bool wide = root.Radius > WaysEdges * LargestEdge(smoke.CellSize(cell));
-  if (wide ? root.Radius < CloseRatio * distance : root.FirstChild < 0)
+  const bool behind = glm::dot(point - root.Centre, root.Normal) < -root.Depth;
+  if (wide ? behind || root.Radius < CloseRatio * distance || !IsRectangle(root.Corners)
+           : root.FirstChild < 0)
   {
     return std::nullopt;
   }
@@ -99,7 +112,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     extinction[0][0], extinction[0][2], extinction[2][0], extinction[2][2]};
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
   const double even = 0.25 * std::accumulate(corners.begin(), corners.end(), 0.0);
-  // Ways to a wide plate's edges are the longer, the closer it is.
+  // From close by, ways to the edges of a wide plate are longer than that to its centre.
   const double scale = this->Scene_.LargestScale() * (distance + (wide ? root.Radius : 0.0));
   const bool told =
     scale * std::abs(extinction[1][1] - even) < ToldDepth && scale * (*most - *least) < AlikeDepth;
@@ -120,9 +133,9 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
     walk(1, side);
     walk(side, 1);
     // Between so few ways to a wide plate there may be anything, unless all tell of each other.
-    const double off = std::max(
-      std::abs(extinction[side][1] - acrossRow), std::abs(extinction[1][side] - acrossColumn));
-    if (wide && scale * off >= ToldDepth)
+    const bool tell = scale * std::abs(extinction[side][1] - acrossRow) < ToldDepth &&
+                      scale * std::abs(extinction[1][side] - acrossColumn) < ToldDepth;
+    if (wide && !tell)
     {
       return std::nullopt;
     }

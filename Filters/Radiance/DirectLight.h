@@ -112,7 +112,7 @@ private:
     std::optional<Vec3> Normal;
     /// Nothing hides the light.
     bool Clear = false;
-    /// Where the plate is close and small against what the smoke varies over.
+    /// Where the plate is close and few ways to it tell all others.
     std::optional<Ways> Close{};
     /// Where the light is far: the mean extinction along all ways to it, if that is known [1/m].
     std::optional<double> Extinction{};
@@ -130,7 +130,8 @@ private:
 
   /// Share of a group that is not hidden from a receiver; of a small one all or nothing.
   double Visible(const LightGroup& group, const Receiver& receiver) const;
-  /// The ways to a light, where they are few enough to stand for all.
+  /// The ways to a light, where few may stand for all: the plate is no wider than a cell, or close
+  /// and wide and they tell each other.
   std::optional<Ways> WaysTo(const LightGroup& root, const Vec3& point) const;
   /// Optical depth at 633 nm between the receiver and a place on the light.
   double Depth(const Receiver& receiver, const Vec3& place) const

@@ -150,12 +150,12 @@ std::vector<Sight> DirectLight::SightsFrom(
   const Medium& smoke = this->Scene_.Smoke();
   // What lies behind the plate gets none of it, seen or not.
   std::vector<Sight> sights(cells.size(), Sight::Whole);
-  const auto placeIn = [](const Box& box) { return box.Centre() + OffCentre * box.Size(); };
+  const auto askedAt = [](const Box& box) { return box.Centre() + OffCentre * box.Size(); };
   Box places = Box::Nothing();
   bool small = true;
   for (const std::int64_t cell : cells)
   {
-    const Vec3 place = placeIn(smoke.CellBounds(cell));
+    const Vec3 place = askedAt(smoke.CellBounds(cell));
     places.Add({place, place});
     small = small && LightSight::Small(root, place);
   }
@@ -169,7 +169,7 @@ std::vector<Sight> DirectLight::SightsFrom(
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const Box box = smoke.CellBounds(cells[i]);
-    const Vec3 place = placeIn(box);
+    const Vec3 place = askedAt(box);
     if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(box.Size()))
     {
       continue;

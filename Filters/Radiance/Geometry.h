@@ -94,8 +94,8 @@ public:
   /// @param trees of one scene, with the same centre, at least one
   static std::vector<bool> Clear(
     std::initializer_list<const TriangleTree*> trees, std::span<const RayPiece> pieces);
-  /// Whether something holds for all triangles near to a place, whose corners are known to single
-  /// precision; those after the first for which it does not are not asked.
+  /// Whether something holds for all triangles near to a place, which it is told with their corners
+  /// to single precision. After the first for which it does not, no more are asked.
   /// @param radius around the place within which triangles are near; some beyond are asked, too [m]
   bool AllNear(
     const Vec3& place, double radius, const std::function<bool(const Triangle&)>& holds) const;

@@ -27,6 +27,7 @@ struct Hull
     for (const Vec3& corner : this->Corners)
     {
       this->Bounds.Add({corner, corner});
+      this->Lowest = std::min(this->Lowest, this->Height(corner));
     }
   }
 
@@ -34,14 +35,15 @@ struct Hull
 
   /// Whether a plane parts it from a triangle: that of a face of the box around it, the plate's, or
   /// the triangle's own.
-  /// @param touch how far before the plate's plane triangles still count as lying in it
+  /// @param touch how far before the plate triangles still count as behind it, as lines end so far
+  /// before what they lead to [m]
   bool PartedFrom(const Triangle& triangle, double touch) const
   {
     const Box bounds = BoundsOf(triangle);
     if (glm::any(glm::lessThan(bounds.Upper, this->Bounds.Lower)) ||
         glm::any(glm::lessThan(this->Bounds.Upper, bounds.Lower)) ||
         std::all_of(triangle.begin(), triangle.end(),
-          [&](const Vec3& corner) { return this->Height(corner) <= touch; }))
+          [&](const Vec3& corner) { return this->Height(corner) <= this->Lowest + touch; }))
     {
       return true;
     }
@@ -57,6 +59,8 @@ struct Hull
   std::array<Vec3, 12> Corners;
   Box Bounds = Box::Nothing();
   Vec3 Plate, Normal;
+  /// Height of its lowest corner: no plate is plane but for rounding.
+  double Lowest = 0.0;
 };
 
 } // namespace
@@ -70,7 +74,7 @@ bool Geometry::Free(const Shaft& shaft) const
     return false;
   }
   const Vec3 centre = hull.Bounds.Centre();
-  const double radius = 0.5 * glm::length(hull.Bounds.Size());
+  const double radius = 0.5 * glm::length(hull.Bounds.Size()) + this->Tolerance_;
   for (const TriangleTree* tree : {&this->Surfaces_, &this->Emitters_})
   {
     int looks = 0;

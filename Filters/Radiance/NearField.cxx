@@ -16,13 +16,14 @@ namespace
 {
 
 /// Steps of a level's lattice from the plate to the level's end, and as long ones along it: of the
-/// innermost, which is interpolated linearly since it follows a pattern, and of others.
+/// innermost of a pattern, which is interpolated linearly, and of others.
 constexpr int InnermostSteps = 6;
 constexpr int Steps = 5;
 /// Steps of the innermost from the plate to its end, each longer than the one before: in smoke,
 /// light falls off most steeply right at the plate.
 constexpr int GradedSteps = 10;
-/// The innermost level of a single leaf reaches so far, in shares of its shorter edge.
+/// The innermost level of a single leaf reaches so far, in shares of its shortest edge, with steps
+/// along it as if it reached one such edge: there is no pattern.
 constexpr double SingleLeafShare = 0.125;
 /// How many times as many steps a light takes that is not Lambertian: what is left of it over that
 /// of an even plate falls off with the angle.
@@ -143,8 +144,10 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   {
     this->PatternLength_ = finest;
   }
-  const double pattern = root.FirstChild >= 0 ? finest : SingleLeafShare * finest;
-  double first = std::max(pattern, finer * InnermostSteps * longest / MostStepsAcross);
+  // In smoke that asks for short steps, more nodes would be filled than places are asked for.
+  const bool single = root.FirstChild < 0 && std::min(reach, finest) <= finer * Steps * longestStep;
+  double first = std::max(
+    single ? SingleLeafShare * finest : finest, finer * InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
   for (double distance = first;; distance *= 2.0)
   {

@@ -32,7 +32,7 @@ public:
   double Fluence(const Vec3& point, int band) const;
 
   /// Whether a point lies farther from the plate than the innermost box, where the fluence follows
-  /// the plate's pattern more closely than the lattice does.
+  /// the plate's pattern, or the smoke right at the plate, more closely than the lattice does.
   bool Smooth(const Vec3& point) const;
 
   /// Length over which the light changes right before the plate [m]: infinite for a single leaf.

@@ -38,7 +38,7 @@ const std::map<std::string, Case> Cases = {
                 {.ReferenceTolerance = 0.004, .Seeds = 1}}},
   {"office", {[](const Settings& settings)
                { RunMap(settings, "office", Office(), OfficePlaces(settings.Threads)); },
-               {.Seeds = 2}}},
+               {.Samples = {1, 4, 16}, .Seeds = 2}}},
   {"growth", {RunGrowth, {}}},
   {"threads", {RunThreads, {}}},
   {"steps", {RunSteps, {}}},
@@ -106,12 +106,12 @@ void PrintUsage()
   std::fprintf(stderr,
     "SmokeBenchmark --case A,B,... [options]\n"
     "  cases: tunnel hall12 hall110 hall10m office growth threads steps skips\n"
-    "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver (tunnel, halls)\n"
+    "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver (tunnel, maps)\n"
     "  --samples 1,4,16,64               samples a pixel, or a point of a sign, of the reference\n"
-    "                                    integrator (tunnel, halls); empty: without it\n"
+    "                                    integrator (tunnel, maps); empty: without it\n"
     "  --reference-tolerance 0.002       of what errors are measured against; 0: no errors "
-    "(halls)\n"
-    "  --seeds 4                         solutions of a tolerance (tunnel, halls)\n"
+    "(maps)\n"
+    "  --seeds 4                         solutions of a tolerance (tunnel, maps)\n"
     "  --threads 0                       of the solver; 0: all\n"
     "  --limit 60                        a growth curve ends after so many processor seconds\n"
     "  --time 600                        second of the hall's fire\n"

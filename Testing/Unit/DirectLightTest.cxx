@@ -127,6 +127,64 @@ TEST(DirectLight, OfALampThatAWallGoesThrough)
   }
 }
 
+/// Fluence at a point of a plate of luminance 100 that may be any quadrilateral, its corners as
+/// EmitterCell's: a sum over 200 x 200 places, each dimmed along its own way.
+double SumOver(const Scene& scene, const std::vector<Vec3>& corners, const Vec3& point)
+{
+  constexpr int Steps = 200;
+  const Vec3 along = corners[1] - corners[0];
+  const Vec3 up = corners[3] - corners[0];
+  const Vec3 twist = corners[2] - corners[3] - along;
+  double sum = 0.0;
+  for (int i = 0; i < Steps * Steps; ++i)
+  {
+    const double u = (i % Steps + 0.5) / Steps;
+    const double v = (i / Steps + 0.5) / Steps;
+    const Vec3 to = corners[0] + u * along + v * (up + u * twist) - point;
+    const double distance = glm::length(to);
+    const double area =
+      glm::length(glm::cross(along + v * twist, up + u * twist)) / (Steps * Steps);
+    sum += 100.0 * area * std::abs(to.z) / std::pow(distance, 3) *
+           std::exp(-scene.Smoke().OpticalDepth(point, to / distance, 0.0, distance));
+  }
+  return sum;
+}
+
+// Lamps several times as wide as cells, and close, in smoke that gets thicker along x and upwards:
+// also those that are no rectangles.
+TEST(DirectLight, CloseToAWideLamp)
+{
+  const std::vector<std::vector<Vec3>> lamps = {
+    {{0.7, 0.7, 2}, {0.7, 1.3, 2}, {1.3, 1.3, 2}, {1.3, 0.7, 2}},
+    {{0.9, 0.7, 2}, {0.7, 1.3, 2}, {1.3, 1.3, 2}, {1.1, 0.7, 2}},
+    {{0.95, 0.7, 2}, {0.6, 1.3, 2}, {1.4, 1.3, 2}, {1.05, 0.7, 2}}};
+  for (const std::vector<Vec3>& corners : lamps)
+  {
+    SceneDescription description;
+    description.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(2.0), {20, 20, 20}, 0.0)};
+    for (std::size_t cell = 0; cell < description.Grids[0].Extinction.size(); ++cell)
+    {
+      description.Grids[0].Extinction[cell] =
+        0.1F + 0.05F * static_cast<float>(cell % 20) + 0.03F * static_cast<float>(cell / 400);
+    }
+    EmitterCell cell;
+    cell.Vertices = corners;
+    cell.Luminance = {100, 100, 100};
+    description.Emitters = {cell};
+    const Scene scene(description);
+    const DirectLight direct(scene);
+    for (const double height : {0.02, 0.05, 0.1, 0.2, 0.4})
+    {
+      for (const Vec3& beside : {Vec3(1.0, 1.0, 2.0), Vec3(0.83, 1.21, 2.0), Vec3(1.35, 0.8, 2.0)})
+      {
+        const Vec3 point = beside - Vec3(0.0, 0.0, height);
+        EXPECT_NEAR(direct.Fluence(0, point)[0] / SumOver(scene, corners, point), 1.0, 0.004)
+          << corners[0].x << ' ' << beside.x << ' ' << height;
+      }
+    }
+  }
+}
+
 // Right before the middle of a plate its fluence is 2 pi L / (n + 1), farther off what a sum over
 // 400 x 400 places of the plate gives; beams far sharper than the plate is wide among them.
 TEST(DirectLight, SteepLawsCloseToThePlate)

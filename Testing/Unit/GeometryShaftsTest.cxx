@@ -47,6 +47,23 @@ TEST(GeometryShafts, WhatLiesBesideAShaftLeavesItFree)
   EXPECT_TRUE(Geometry().Free(Below()));
 }
 
+TEST(GeometryShafts, ItsOwnPlateLeavesItFree)
+{
+  const Shaft shaft = Below();
+  SurfaceMesh plate;
+  AddTriangle(plate, {shaft.Plate[0], shaft.Plate[1], shaft.Plate[2]});
+  AddTriangle(plate, {shaft.Plate[0], shaft.Plate[2], shaft.Plate[3]});
+  Geometry shapes(Room(), plate);
+  EXPECT_TRUE(shapes.Free(shaft));
+  // A post that stands on the plate, and reaches half a metre down.
+  AddTriangle(plate, {Vec3(0.5, 0.5, 3.0), Vec3(0.6, 0.5, 3.0), Vec3(0.5, 0.5, 2.5)});
+  shapes = Geometry(Room(), plate);
+  const Geometry copy = shapes;
+  shapes = Geometry();
+  EXPECT_FALSE(copy.Free(shaft));
+  EXPECT_TRUE(shapes.Free(shaft));
+}
+
 TEST(GeometryShafts, WhatLiesInAShaftIsMet)
 {
   SurfaceMesh mesh = Room();
