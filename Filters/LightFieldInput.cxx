@@ -117,7 +117,9 @@ void LightFieldInput::Load(vtkDataObject* input)
       scene->SharesShapes() ? "those of the light field before hold the same shapes"
                             : "shapes are new"},
     LeaptAir(scene->Smoke())};
-  auto field = std::make_shared<const LightField>(LoadLightField(blocks, scene->Smoke(), bands));
+  auto field = std::make_shared<LightField>(LoadLightField(blocks, scene->Smoke(), bands));
+  // Those from elsewhere may tell of none.
+  FieldNumber(input, "Tolerance", 0, field->Tolerance);
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
   for (vtkDataArray* const array : arrays)
   {

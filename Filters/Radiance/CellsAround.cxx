@@ -39,6 +39,11 @@ CellsAround::CellsAround(const Medium& smoke, const Medium::Block& block)
         this->Beside_[block.Number(place)][face] = number;
       }
     });
+  this->Bounds_.reserve(this->Cells_.size());
+  for (const std::int64_t cell : this->Cells_)
+  {
+    this->Bounds_.push_back(smoke.CellBounds(cell));
+  }
 }
 
 } // namespace smokevis

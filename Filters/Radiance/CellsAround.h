@@ -23,6 +23,8 @@ public:
   const Medium::Block& Block() const { return this->Block_; }
   std::size_t Count() const { return this->Cells_.size(); }
   std::int64_t Cell(std::size_t number) const { return this->Cells_[number]; }
+  /// What it fills.
+  const Box& Bounds(std::size_t number) const { return this->Bounds_[number]; }
   /// Numbers of the cells across the faces of a cell of the block: low and high along x, along y,
   /// along z; None where there is none.
   /// @param number of the cell
@@ -34,6 +36,7 @@ public:
 private:
   Medium::Block Block_;
   std::vector<std::int64_t> Cells_;
+  std::vector<Box> Bounds_;
   /// Of the cells of the block.
   std::vector<std::array<std::uint32_t, 6>> Beside_;
 };

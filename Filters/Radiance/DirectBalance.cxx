@@ -32,8 +32,8 @@ constexpr double ErrorRatio = 6.0;
 
 DirectBalance::DirectBalance(
   const Scene& scene, const LightField& field, std::size_t blocks, std::size_t parts)
-    : Scene_(scene), Cells_(field.Cells), Blocks_(blocks), Parts_(parts), Patches_(field.Patches),
-      Watched_(scene.Lights().Lights().size())
+    : Scene_(scene), Near_(scene.Near(field.Tolerance)), Cells_(field.Cells), Blocks_(blocks),
+      Parts_(parts), Patches_(field.Patches), Watched_(scene.Lights().Lights().size())
 {
   const std::size_t sides = 2 * this->Patches_;
   const std::size_t items = blocks + parts + this->Patches_;
@@ -100,11 +100,10 @@ void DirectBalance::AddToCell(
   std::size_t block, std::size_t light, std::int64_t cell, const Spectrum& fluence)
 {
   Power& power = this->PowerOf(block, light);
-  const NearLights& near = this->Scene_.Near();
-  const int place = near.Place(cell);
-  if (const int own = place < 0 ? -1 : near.Find(place, light); own >= 0)
+  const int place = this->Near_.Place(cell);
+  if (const int own = place < 0 ? -1 : this->Near_.Find(place, light); own >= 0)
   {
-    const bool exact = near.Cells()[place].Lights[own].Deposits;
+    const bool exact = this->Near_.Cells()[place].Lights[own].Deposits;
     Accumulate(exact ? power.Exact : power.Known, this->TakenIn(cell, fluence));
     return;
   }

@@ -13,6 +13,7 @@
 namespace smokevis
 {
 
+class NearLights;
 class Scene;
 class Team;
 
@@ -68,6 +69,7 @@ private:
   void Complete(Team& team);
 
   const Scene& Scene_;
+  const NearLights& Near_;
   std::size_t Cells_, Blocks_, Parts_, Patches_;
   std::vector<Watched> Watched_;
   /// Of the blocks, the parts and the patches, of all lights each.

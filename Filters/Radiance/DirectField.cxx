@@ -32,7 +32,7 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
   {
     return;
   }
-  this->Lights_ = &scene.Near();
+  this->Lights_ = &scene.Near(field.Tolerance);
   tbb::parallel_for(std::size_t{0}, scene.Lights().Lights().size(),
     [this](std::size_t light) { this->Lights_->Deposit(light); });
   this->FindOthers();

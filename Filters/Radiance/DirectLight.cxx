@@ -23,9 +23,8 @@ constexpr double EdgeShare = 1e-6;
 /// and differ by no more than so much: else smoke may vary between them as well.
 constexpr double ToldDepth = 0.002;
 constexpr double AlikeDepth = 0.04;
-/// Tolerance above which boxes count as flat that are so many times as deep as at a small one, at
-/// most: by the way to their centre and its slopes their means are right to some percent.
-constexpr double FineTolerance = 0.05;
+/// Above the finest tolerances boxes count as flat that are so many times as deep as at a small
+/// one, at most: by the way to their centre and its slopes their means are right to some percent.
 constexpr double MostTimes = 2.0;
 
 bool IsRectangle(const std::array<Vec3, 4>& corners)
@@ -41,7 +40,8 @@ bool IsRectangle(const std::array<Vec3, 4>& corners)
 
 DirectLight::DirectLight(const Scene& scene, const NearLights* near, double tolerance)
     : Scene_(scene), Sight_(scene.Shapes()), Near_(near), Bend_(BendFor(tolerance)),
-      Flat_(FlatDepth * std::clamp(tolerance / FineTolerance, 1.0, MostTimes))
+      Flat_(FlatDepth * std::clamp(tolerance / FineTolerance, 1.0, MostTimes)),
+      Coarse_(tolerance > FineTolerance)
 {
 }
 

@@ -28,6 +28,9 @@ struct LightGroup;
 class DirectLight
 {
 public:
+  /// Above this tolerance veils are noisier than light is uncertain that is known to some percent.
+  static constexpr double FineTolerance = 0.05;
+
   /// @param near what is known of lights near to cells already; must outlive this
   /// @param tolerance that is asked for; a large one lets few ways stand for many sooner
   explicit DirectLight(
@@ -242,7 +245,9 @@ private:
   /// @param ways to places of the light that tell it
   double ShownShare(std::size_t light, std::int64_t cell, std::uint64_t ways) const;
   /// What cells see of a light from right beside their centres.
-  std::vector<Sight> SightsFrom(const LightGroup& root, std::span<const std::int64_t> cells) const;
+  /// @param cells by their numbers
+  std::vector<Sight> SightsFrom(
+    const LightGroup& root, const CellsAround& around, std::span<const std::size_t> cells) const;
   /// What is known of a block and right around it, for one light.
   struct Known
   {
@@ -381,6 +386,8 @@ private:
   double Bend_;
   /// Optical depth of a box, of any band, above which it is measured at Gauss points.
   double Flat_;
+  /// Whether it will do to know shadows' edges roughly.
+  bool Coarse_;
 };
 
 } // namespace smokevis

@@ -18,8 +18,9 @@ namespace
 {
 
 /// Ways from places in a cell to places of a light that tell the share of it that is not hidden:
-/// enough to know it to some 2 % where the edge of a shadow crosses the cell.
+/// enough to know it to some 2 % where the edge of a shadow crosses the cell, and to some 3 %.
 constexpr std::uint64_t ShadowWays = 64;
+constexpr std::uint64_t CoarseShadowWays = 32;
 constexpr std::uint64_t ShadowKey = 0x5ad0e;
 /// Where a cell is asked what it sees, from its centre in shares of its edges: faces of walls and
 /// lights often lie level with centres, and rounding would decide.
@@ -145,22 +146,23 @@ double DirectLight::ShownShare(std::size_t light, std::int64_t cell, std::uint64
 }
 
 std::vector<Sight> DirectLight::SightsFrom(
-  const LightGroup& root, std::span<const std::int64_t> cells) const
+  const LightGroup& root, const CellsAround& around, std::span<const std::size_t> cells) const
 {
-  const Medium& smoke = this->Scene_.Smoke();
   // What lies behind the plate gets none of it, seen or not.
   std::vector<Sight> sights(cells.size(), Sight::Whole);
-  const auto askedAt = [](const Box& box) { return box.Centre() + OffCentre * box.Size(); };
-  Box places = Box::Nothing();
+  std::vector<Vec3> places;
+  places.reserve(cells.size());
+  Box all = Box::Nothing();
   bool small = true;
-  for (const std::int64_t cell : cells)
+  for (const std::size_t cell : cells)
   {
-    const Vec3 place = askedAt(smoke.CellBounds(cell));
-    places.Add({place, place});
+    const Box& box = around.Bounds(cell);
+    const Vec3& place = places.emplace_back(box.Centre() + OffCentre * box.Size());
+    all.Add({place, place});
     small = small && LightSight::Small(root, place);
   }
   // Many lines lead to a close light.
-  if (!small && root.Plane() && this->Scene_.Shapes().Free({root.Corners, root.Normal, places}))
+  if (!small && root.Plane() && this->Scene_.Shapes().Free({root.Corners, root.Normal, all}))
   {
     return sights;
   }
@@ -168,13 +170,13 @@ std::vector<Sight> DirectLight::SightsFrom(
   std::vector<std::size_t> ofLine;
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    const Box box = smoke.CellBounds(cells[i]);
-    const Vec3 place = askedAt(box);
-    if (glm::dot(place - root.Centre, root.Normal) < -root.Radius - 0.6 * glm::length(box.Size()))
+    const Vec3& place = places[i];
+    const double height = glm::dot(place - root.Centre, root.Normal);
+    if (height < -root.Radius - 0.6 * glm::length(around.Bounds(cells[i]).Size()))
     {
       continue;
     }
-    if (LightSight::Small(root, place))
+    if (small || LightSight::Small(root, place))
     {
       lines.push_back({place, root.Centre});
       ofLine.push_back(i);
@@ -202,7 +204,6 @@ std::vector<double> DirectLight::ShownIn(
   block.ForEachCell(
     [&](const std::array<int, 3>& place) { own.push_back(around.Block().NumberIn(block, place)); });
   std::vector<std::size_t> unknown;
-  std::vector<std::int64_t> cells;
   const auto ask = [&](std::size_t number)
   {
     if (!known.Sights[number])
@@ -210,7 +211,6 @@ std::vector<double> DirectLight::ShownIn(
       // Nothing yet, but asked.
       known.Sights[number] = Sight::None;
       unknown.push_back(number);
-      cells.push_back(around.Cell(number));
     }
   };
   std::for_each(own.begin(), own.end(), ask);
@@ -225,24 +225,25 @@ std::vector<double> DirectLight::ShownIn(
     }
   }
   const LightGroup& root = this->Scene_.Lights().Root(light);
-  const std::vector<Sight> answers = this->SightsFrom(root, cells);
+  const std::vector<Sight> answers = this->SightsFrom(root, around, unknown);
   for (std::size_t answer = 0; answer < answers.size(); ++answer)
   {
     known.Sights[unknown[answer]] = answers[answer];
   }
+  const std::uint64_t ways = this->Coarse_ ? CoarseShadowWays : ShadowWays;
   std::vector<double> shares;
   shares.reserve(block.Cells());
   for (const std::size_t number : own)
   {
     const std::int64_t cell = around.Cell(number);
-    const Box bounds = smoke.CellBounds(cell);
+    const Box& bounds = around.Bounds(number);
     const Sight seen = *known.Sights[number];
     // The edge of a shadow lies between the centres of cells that see each other, but not the same
     // of the light.
     const auto differs = [&](std::uint32_t other)
     {
       return other != CellsAround::None && *known.Sights[other] != seen &&
-             this->Scene_.Shapes().Visible(bounds.Centre(), smoke.CellCentre(around.Cell(other)));
+             this->Scene_.Shapes().Visible(bounds.Centre(), around.Bounds(other).Centre());
     };
     // Others are measured by themselves, or get nothing.
     const bool asked = !smoke.Parts().Find(cell) && !this->KeptFluence(light, cell) &&
@@ -251,8 +252,8 @@ std::vector<double> DirectLight::ShownIn(
     const bool crossed =
       asked &&
       (seen == Sight::Parted || (!roughly && std::any_of(beside.begin(), beside.end(), differs)));
-    shares.push_back(crossed ? this->ShownShare(light, cell, ShadowWays)
-                             : (asked && seen == Sight::Whole ? 1.0 : 0.0));
+    shares.push_back(
+      crossed ? this->ShownShare(light, cell, ways) : (asked && seen == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

@@ -80,7 +80,7 @@ std::vector<std::size_t> DirectSolve::StrongestFirst(const Medium::Block& block)
 
 void DirectSolve::NearCells()
 {
-  const NearLights& near = this->Scene_.Near();
+  const NearLights& near = this->Scene_.Near(this->Options_.Tolerance);
   const std::vector<NearLights::Cell>& cells = near.Cells();
   const std::size_t lights = this->Scene_.Lights().Lights().size();
   for (std::size_t light = 0; light < lights; ++light)
@@ -168,7 +168,8 @@ void DirectSolve::Cells()
   {
     return;
   }
-  const DirectLight direct(this->Scene_, &this->Scene_.Near(), this->Options_.Tolerance);
+  const double tolerance = this->Options_.Tolerance;
+  const DirectLight direct(this->Scene_, &this->Scene_.Near(tolerance), tolerance);
   this->NearCells();
   this->AddParts(direct);
   std::atomic<std::size_t> told{0};

@@ -80,6 +80,7 @@ LightField Solver::Run()
   this->Field_.Bands = this->Scene_.Bands();
   this->Field_.Cells = this->Scene_.Smoke().Cells();
   this->Field_.Patches = this->Scene_.Patches();
+  this->Field_.Tolerance = this->Options_.Tolerance;
   const std::size_t bands = this->Field_.Bands;
   ReserveInLargePages(bands * this->Field_.Cells, this->Field_.DirectFluence);
   this->Field_.DirectFluence.assign(bands * this->Field_.Cells, 0.0F);
@@ -104,7 +105,7 @@ LightField Solver::Run()
   {
     throw Error("light field", "the tolerance is not positive", "Give for example 0.01");
   }
-  this->Arena_.execute([this] { this->Scene_.Near(); });
+  this->Arena_.execute([this] { this->Scene_.Near(this->Options_.Tolerance); });
   DirectSolve direct(this->Scene_, this->Options_, this->Team_, this->Progress_, this->Arena_,
     DirectShare, this->Field_);
   direct.Cells();

@@ -44,6 +44,8 @@ struct LightField
   int Bands = 1;
   std::size_t Cells = 0;
   std::size_t Patches = 0;
+  /// What it was solved to: see LightFieldOptions.
+  double Tolerance = 0.0;
   /// Mean over each cell of the fluence [lx] that comes straight from emitters: [band][cell].
   std::vector<float> DirectFluence;
   /// The rest of the fluence [lx], a value a batch: [band][cell].

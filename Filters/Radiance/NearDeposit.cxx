@@ -23,6 +23,8 @@ constexpr double Rays = 524288.0;
 constexpr double FewestOfLight = 4096.0;
 constexpr double MostOfLight = 32768.0;
 constexpr double FewestOfLeaf = 64.0;
+/// Share of those that do where it is known roughly.
+constexpr double CoarseShare = 0.5;
 /// Rays are followed in so many parts, whose sums are added in their order.
 constexpr std::uint64_t Parts = 8;
 constexpr std::uint64_t Key = 0x2ea7de9051;
@@ -43,8 +45,9 @@ struct NearDeposit::Ray
   Spectrum Power;
 };
 
-NearDeposit::NearDeposit(const Scene& scene, std::size_t light, std::vector<std::int64_t> cells)
-    : Scene_(scene), Order_(cells.size())
+NearDeposit::NearDeposit(
+  const Scene& scene, std::size_t light, std::vector<std::int64_t> cells, bool coarse)
+    : Scene_(scene), Order_(cells.size()), Coarse_(coarse)
 {
   std::iota(this->Order_.begin(), this->Order_.end(), std::size_t{0});
   std::sort(this->Order_.begin(), this->Order_.end(),
@@ -126,7 +129,8 @@ std::vector<Spectrum> NearDeposit::Run() const
 {
   const std::vector<LightGroup>& groups = this->Scene_.Lights().Groups();
   const auto lights = static_cast<double>(this->Scene_.Lights().Lights().size());
-  const double rays = std::clamp(Rays / lights, FewestOfLight, MostOfLight);
+  const double rays =
+    (this->Coarse_ ? CoarseShare : 1.0) * std::clamp(Rays / lights, FewestOfLight, MostOfLight);
   double intensity = 0.0;
   for (const int leaf : this->Leaves_)
   {

@@ -19,7 +19,9 @@ class NearDeposit
 public:
   /// @param light index into EmitterSet::Lights
   /// @param cells that are asked for
-  NearDeposit(const Scene& scene, std::size_t light, std::vector<std::int64_t> cells);
+  /// @param coarse whether it will do to know each to a percent
+  NearDeposit(
+    const Scene& scene, std::size_t light, std::vector<std::int64_t> cells, bool coarse = false);
 
   /// Mean fluence over each of the cells [lx].
   std::vector<Spectrum> Run() const;
@@ -43,6 +45,7 @@ private:
   std::vector<int> Leaves_;
   /// Distance from the light within which the cells lie [m].
   double Reach_ = 0.0;
+  bool Coarse_;
 };
 
 } // namespace smokevis

@@ -19,9 +19,11 @@ namespace
 /// innermost of a pattern, which is interpolated linearly, and of others.
 constexpr int InnermostSteps = 6;
 constexpr int Steps = 5;
+constexpr int CoarseSteps = 3;
 /// Steps of the innermost from the plate to its end, each longer than the one before: in smoke,
 /// light falls off most steeply right at the plate.
 constexpr int GradedSteps = 10;
+constexpr int CoarseGradedSteps = 8;
 /// The innermost level of a single leaf reaches so far, in shares of its shortest edge, with steps
 /// along it as if it reached one such edge: there is no pattern.
 constexpr double SingleLeafShare = 0.125;
@@ -106,7 +108,7 @@ struct NearField::Level
 };
 
 NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach,
-  double longestStep)
+  double longestStep, bool coarse)
     : Scene_(scene), Direct_(direct), Light_(light)
 {
   const EmitterSet& lights = scene.Lights();
@@ -138,6 +140,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   this->Extinction_ = cell < 0 ? 0.0 : scene.Smoke().Extinction(cell);
 
   const int finer = root.Law.Lambertian() ? 1 : LawSteps;
+  const int outerSteps = finer * (coarse ? CoarseSteps : Steps);
   // The innermost level follows the plate's pattern.
   const double finest = FinestEdge(lights, root);
   if (root.FirstChild >= 0)
@@ -145,7 +148,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     this->PatternLength_ = finest;
   }
   // In smoke that asks for short steps, more nodes would be filled than places are asked for.
-  const bool single = root.FirstChild < 0 && std::min(reach, finest) <= finer * Steps * longestStep;
+  const bool single = root.FirstChild < 0 && std::min(reach, finest) <= outerSteps * longestStep;
   double first = std::max(
     single ? SingleLeafShare * finest : finest, finer * InnermostSteps * longest / MostStepsAcross);
   first = std::min(first, std::max(reach, 1e-9));
@@ -153,7 +156,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
   {
     const double step = this->Levels_.empty()
                           ? std::max(first, std::min(finest, reach)) / (finer * InnermostSteps)
-                          : std::min(longestStep, distance / (finer * Steps));
+                          : std::min(longestStep, distance / outerSteps);
     if (this->Extinction_ * scene.LargestScale() * step > ThickStep)
     {
       break;
@@ -165,7 +168,7 @@ NearField::NearField(const Scene& scene, const DirectLight& direct, std::size_t 
     {
       const double half = axis < 2 ? this->Half_[axis] + distance : 0.5 * distance;
       int steps = axis == 2 && level->Graded
-                    ? finer * GradedSteps
+                    ? finer * (coarse ? CoarseGradedSteps : GradedSteps)
                     : static_cast<int>(std::ceil(2.0 * half / step - Rounding));
       // Through the plate's middle often go faces of cells, along which rounding would decide whose
       // smoke a way leads through: no nodes there.

@@ -24,8 +24,9 @@ class NearField
 public:
   /// @param reach distance from the plate up to which fluences will be asked for [m]
   /// @param longestStep of a lattice, but of the innermost: what it may be for the smoke's sake [m]
+  /// @param coarse whether it will do to know fluences to two percent, rather than one
   NearField(const Scene& scene, const DirectLight& direct, std::size_t light, double reach,
-    double longestStep = std::numeric_limits<double>::infinity());
+    double longestStep = std::numeric_limits<double>::infinity(), bool coarse = false);
   ~NearField();
 
   /// Fluence at a point that sees the whole light [lx].

@@ -42,9 +42,11 @@ constexpr double FinestStep = 0.25;
 
 } // namespace
 
-NearLights::NearLights(const Scene& scene)
-    : Scene_(scene), Direct_(scene), Fields_(scene.Lights().Lights().size()),
-      DepositsIn_(Fields_.size()), Deposited_(Fields_.size()), Bands_(scene.Bands())
+NearLights::NearLights(const Scene& scene, bool coarse)
+    : Scene_(scene), Coarse_(coarse),
+      Direct_(scene, nullptr, coarse ? 2.0 * DirectLight::FineTolerance : 0.0),
+      Fields_(scene.Lights().Lights().size()), DepositsIn_(Fields_.size()),
+      Deposited_(Fields_.size()), Bands_(scene.Bands())
 {
   const Medium& smoke = scene.Smoke();
   const EmitterSet& lights = scene.Lights();
@@ -64,7 +66,7 @@ NearLights::NearLights(const Scene& scene)
       uneven[light] = around.Unevenness > DepositUnevenness && uneven.size() <= MostDeposits;
       const double edge = around.Reach / NearEdges;
       this->Fields_[light] = std::make_unique<NearField>(scene, this->Direct_, light, around.Reach,
-        edge * std::max(FinestStep, StepOverUnevenness / around.Unevenness));
+        edge * std::max(FinestStep, StepOverUnevenness / around.Unevenness), coarse);
     }
   }
   tbb::parallel_for(std::size_t{0}, this->Cells_.size(),
@@ -131,7 +133,8 @@ void NearLights::Deposit(std::size_t light) const
       {
         cells.push_back(this->Cells_[place].Index);
       }
-      const std::vector<Spectrum> means = NearDeposit(this->Scene_, light, cells).Run();
+      const std::vector<Spectrum> means =
+        NearDeposit(this->Scene_, light, cells, this->Coarse_).Run();
       for (std::size_t i = 0; i < places.size(); ++i)
       {
         this->Keep(this->MeanIndex(places[i], this->Find(places[i], light)), means[i]);

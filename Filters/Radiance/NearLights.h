@@ -20,7 +20,8 @@ namespace smokevis
 class NearLights
 {
 public:
-  explicit NearLights(const Scene& scene);
+  /// @param coarse whether it will do to know their fluences to some percent
+  NearLights(const Scene& scene, bool coarse);
 
   struct Light
   {
@@ -94,6 +95,7 @@ private:
   Surroundings FindCells(std::size_t light);
 
   const Scene& Scene_;
+  bool Coarse_;
   DirectLight Direct_;
   std::vector<Cell> Cells_;
   std::vector<std::int32_t> Places_;

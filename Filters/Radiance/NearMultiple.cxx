@@ -44,7 +44,8 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
   {
     return;
   }
-  const NearLights& lights = scene.Near();
+  const NearLights& lights = scene.Near(field.Tolerance);
+  this->Lights_ = &lights;
   this->Places_.assign(lights.Cells().size(), -1);
   for (std::size_t place = 0; place < this->Places_.size(); ++place)
   {
@@ -73,7 +74,7 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
 
 int NearMultiple::Place(std::int64_t cell) const
 {
-  const int near = this->Cells_.empty() ? -1 : this->Light_.TheScene().Near().Place(cell);
+  const int near = this->Cells_.empty() ? -1 : this->Lights_->Place(cell);
   return near < 0 ? -1 : this->Places_[near];
 }
 

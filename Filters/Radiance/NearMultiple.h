@@ -43,6 +43,7 @@ private:
   void Find(Cell& cell) const;
 
   const IndirectLight& Light_;
+  const NearLights* Lights_ = nullptr;
   /// Of the cells that lights are near to, among those that are looked at.
   std::vector<std::int32_t> Places_;
   mutable std::deque<Cell> Cells_;

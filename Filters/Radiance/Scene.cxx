@@ -201,11 +201,12 @@ void Scene::FindShapes(double size)
   this->Shapes_ = shapes;
 }
 
-const NearLights& Scene::Near() const
+const NearLights& Scene::Near(double tolerance) const
 {
-  tbb::collaborative_call_once(
-    this->NearFound_, [this] { this->Near_ = std::make_unique<const NearLights>(*this); });
-  return *this->Near_;
+  const bool coarse = tolerance > DirectLight::FineTolerance;
+  tbb::collaborative_call_once(this->NearFound_[coarse],
+    [&] { this->Near_[coarse] = std::make_unique<const NearLights>(*this, coarse); });
+  return *this->Near_[coarse];
 }
 
 const OpenFaces& Scene::Open() const

@@ -78,9 +78,9 @@ public:
   const Medium& Smoke() const { return this->Smoke_; }
   const Geometry& Shapes() const { return *this->Shapes_; }
   const EmitterSet& Lights() const { return this->Lights_; }
-  /// Lights near to smoke cells; found when they are first asked for, by all threads of the
-  /// caller's arena.
-  const NearLights& Near() const;
+  /// Lights near to smoke cells, as exactly as a tolerance asks for; found when they are first
+  /// asked for, by all threads of the caller's arena.
+  const NearLights& Near(double tolerance) const;
   /// Which cells light passes between; found likewise.
   const OpenFaces& Open() const;
 
@@ -129,8 +129,10 @@ private:
   EmitterSet Lights_;
   std::shared_ptr<const Geometry> Shapes_;
   bool SharesShapes_ = false;
-  mutable tbb::collaborative_once_flag NearFound_, OpenFound_;
-  mutable std::unique_ptr<const NearLights> Near_;
+  mutable tbb::collaborative_once_flag OpenFound_;
+  /// Fine ones, then coarse ones.
+  mutable std::array<tbb::collaborative_once_flag, 2> NearFound_;
+  mutable std::array<std::unique_ptr<const NearLights>, 2> Near_;
   mutable std::unique_ptr<const OpenFaces> Open_;
   std::vector<double> PatchArea_;
   Exposure Exposure_;

@@ -177,7 +177,7 @@ TEST(Linearity, SuperpositionOfEightLamps)
       [](double before, float own) { return before + own; });
   }
   std::vector<std::size_t> near;
-  for (const NearLights::Cell& cell : together.TheScene->Near().Cells())
+  for (const NearLights::Cell& cell : together.TheScene->Near(0.1).Cells())
   {
     near.push_back(static_cast<std::size_t>(cell.Index));
   }
