@@ -447,10 +447,12 @@ void Complete(TracedImage& image, const Camera& camera, Team& team)
 TracedImage TraceImage(
   const View& view, const Camera& camera, double acuity, Team& team, Progress& progress)
 {
+  const std::size_t cutBefore = view.RaysCutShort();
   TracedImage image = camera.Aperture > 0.0 ? TraceLens(view, camera, acuity, team, progress)
                                             : TracePinhole(view, camera, acuity, team, progress);
   Complete(image, camera, team);
   image.Averaged = team.Sum(image.Averaged);
+  image.CutShort = team.Sum(view.RaysCutShort() - cutBefore);
   return image;
 }
 

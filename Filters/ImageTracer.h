@@ -32,6 +32,8 @@ struct TracedImage
   std::vector<int> SignIds;
   /// How many pixels have a pattern or an edge in their footprint, and are means of samples.
   std::size_t Averaged = 0;
+  /// View::RaysCutShort of the image.
+  std::size_t CutShort = 0;
   /// Points of the lens that the image is the mean of; 0: one, its centre.
   int LensPoints = 0;
 };

@@ -319,6 +319,8 @@ void vtkVisibilityImage::Report(const Shot& shot, const smokevis::SignMeasuremen
                      : "of the sensor, along the line of sight"});
   report.push_back({"pixels that are means of samples", static_cast<double>(shot.Image.Averaged),
     "a pattern or an edge lies in what they show"});
+  report.push_back({"rays cut short", static_cast<double>(shot.Image.CutShort),
+    "so much smoke lies ahead that the rest adds next to nothing"});
   report.push_back({"points of the lens", std::max(1.0, double(shot.Image.LensPoints)),
     shot.Image.LensPoints > 0 ? "the picture is the mean over the aperture"
                               : "without LensBlur the lens is a pinhole"});

@@ -37,6 +37,8 @@ public:
     return this->Exponent_ > 0.0 ? std::pow(cosine, this->Exponent_) : 1.0;
   }
 
+  /// Largest luminous intensity of a unit area of unit luminance [cd].
+  double LargestIntensity() const { return this->Table_ ? this->Table_->Largest() : 1.0; }
   /// Luminous flux of a unit area of unit luminance [lm]: 2 pi / (n + 2), or pi with a table.
   double UnitFlux() const;
   /// Power of the cosine that the luminance goes with; 0 with a table.

@@ -145,6 +145,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   }
   Counts counts;
   tbb::task_arena arena(options.Threads > 0 ? options.Threads : tbb::task_arena::automatic);
+  const std::size_t cutBefore = view.RaysCutShort();
   const std::size_t last = std::min(places, options.End);
   const std::size_t own = last - std::min(last, options.First);
   ReportedLoop(
@@ -163,6 +164,8 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
     "as uncertain, but lost in the eye's own noise, or no smoke scatters on the way");
   say("rays gathered by views of signs", counts.Rays, "they tell the veil in the dark");
   say("views of signs divided finely", counts.Uneven, "the smoke before the sign is uneven");
+  say("rays cut short", view.RaysCutShort() - cutBefore,
+    "so much smoke lies ahead that the rest adds next to nothing");
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");
   say("views of signs skipped", counts.Hidden, "the sign is hidden");

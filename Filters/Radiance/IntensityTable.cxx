@@ -88,7 +88,7 @@ IntensityTable::IntensityTable(std::vector<double> polar, std::vector<double> az
   {
     value *= scale;
   }
-  const double most = *std::max_element(this->Intensity_.begin(), this->Intensity_.end());
+  this->Largest_ = *std::max_element(this->Intensity_.begin(), this->Intensity_.end());
   const std::size_t count = this->Polar_.size();
   double steepest = 0.0;
   for (std::size_t plane = 0; plane < this->Azimuth_.size(); ++plane)
@@ -106,7 +106,7 @@ IntensityTable::IntensityTable(std::vector<double> polar, std::vector<double> az
       }
     }
   }
-  this->Sharpness_ = steepest / most;
+  this->Sharpness_ = steepest / this->Largest_;
 }
 
 void IntensityTable::Check(const std::string& where) const

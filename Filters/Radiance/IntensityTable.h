@@ -32,6 +32,8 @@ public:
   /// @param x, y, z the direction's parts along the axis where the azimuth is 0, along that where
   /// it is 90 degrees, and along the normal
   double Value(double x, double y, double z) const;
+  /// Largest scaled intensity.
+  double Largest() const { return this->Largest_; }
   /// Largest slope over the angle, as a share of the largest value [1/rad].
   double Sharpness() const { return this->Sharpness_; }
 
@@ -46,6 +48,7 @@ private:
   void Check(const std::string& where) const;
 
   std::vector<double> Polar_, Azimuth_, Intensity_;
+  double Largest_ = 1.0;
   double Sharpness_ = 1.0;
 };
 

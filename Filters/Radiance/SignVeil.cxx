@@ -108,6 +108,11 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
       trace(way);
     }
   }
+  double ahead = this->Ways_[Middle].Light.Veil();
+  for (const std::size_t corner : Corners)
+  {
+    ahead = std::min(ahead, this->Ways_[corner].Light.Veil());
+  }
   this->Near_.resize(columns.Count() * rows.Count());
   for (std::size_t row = 0; row < rows.Count(); ++row)
   {
@@ -120,7 +125,7 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
         const double distance = glm::length(to);
         const Vec3 direction = to / distance;
         const RayLight light =
-          this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance);
+          this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance, ahead);
         this->Near_[row * columns.Count() + column][node] = VeilOf(light);
       }
     }

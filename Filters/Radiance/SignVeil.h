@@ -50,9 +50,10 @@ protected:
     RayLight Light;
   };
 
-  RayLight Trace(const Vec3& direction, double begin, double end) const
+  /// @param ahead veil of the smoke up to `begin` [cd/m2]
+  RayLight Trace(const Vec3& direction, double begin, double end, double ahead = 0.0) const
   {
-    return this->View_.TraceVeil(this->Eye_, direction, begin, end, this->Band_);
+    return this->View_.TraceVeil(this->Eye_, direction, begin, end, this->Band_, ahead);
   }
 
   const View& View_;

@@ -1,5 +1,6 @@
 #include "View.h"
 
+#include "CellLoops.h"
 #include "DirectField.h"
 #include "MultipleShape.h"
 #include "NearMultiple.h"
@@ -7,6 +8,7 @@
 #include "VeilGather.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -20,6 +22,14 @@ namespace
 /// A line meets a wall in the border of two cells to single precision only, so that cells inside
 /// solids see a trace of the light outside: less than this share of the mean fluence.
 constexpr double LeakShare = 1e-4;
+/// Share of the veil of the smoke ahead, in shares of the light field's tolerance, below which what
+/// lies behind is left out.
+constexpr double NegligibleShare = 0.01;
+/// How many times as much light as in the mean over its cell there may be at a place.
+constexpr double MostOverMean = 8.0;
+/// How many times as much as an evenly bright plate leaves right before it one of a measured law
+/// may leave there: light that comes along it goes with the logarithm of the distance.
+constexpr double MostOfMeasured = 8.0;
 
 } // namespace
 
@@ -48,7 +58,7 @@ Lanes RayLight::TotalLanes() const
 /// What views need beyond the light field: how it varies inside and between cells.
 struct View::Implementation
 {
-  explicit Implementation(const Scene& scene, const LightField& field)
+  Implementation(const Scene& scene, const LightField& field, bool skips)
       : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
@@ -62,9 +72,17 @@ struct View::Implementation
       this->MultipleNear[band] = std::make_unique<NearMultiple>(*this->Indirect[band]);
     }
     this->FindLeak();
+    this->Negligible = skips ? NegligibleShare * field.Tolerance : 0.0;
+    for (int band = 0; band < field.Bands; ++band)
+    {
+      this->Brightest[band] = this->BrightestSmoke(band);
+    }
   }
 
   void FindLeak();
+  /// Bound of the luminance that smoke sends out in any direction, were it infinitely thick
+  /// [cd/m2].
+  double BrightestSmoke(int band) const;
   /// Adds weight times the batches of what multiply scattered light sends out of a piece.
   void AddMultiple(const SmokePiece& piece, int band, double weight, Lanes& sum) const;
 
@@ -81,6 +99,11 @@ struct View::Implementation
   std::array<std::unique_ptr<NearMultiple>, 3> MultipleNear;
   /// Fluence that rounding may let through the walls of a solid [lx].
   Spectrum Leak{};
+  /// What BrightestSmoke tells.
+  Spectrum Brightest{};
+  /// Share of the veil ahead that counts as nothing.
+  double Negligible = 0.0;
+  std::atomic<std::size_t> CutShort{0};
 };
 
 void View::Implementation::FindLeak()
@@ -95,6 +118,40 @@ void View::Implementation::FindLeak()
     }
     this->Leak[band] = LeakShare * sum / std::max<std::size_t>(1, this->Field.Cells);
   }
+}
+
+double View::Implementation::BrightestSmoke(int band) const
+{
+  double lamp = 0.0;
+  const EmitterSet& lights = this->TheScene.Lights();
+  for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
+  {
+    // Radiance is nowhere more than the brightest plate's.
+    const EmissionLaw& law = lights.CellLaw(cell);
+    const double most = law.Measured() ? MostOfMeasured * law.LargestIntensity() : 1.0;
+    lamp = std::max(lamp, most * lights.Cells()[cell].Luminance[band]);
+  }
+  struct Most
+  {
+    double Fluence = 0.0;
+    double Emission = 0.0;
+  };
+  const Medium& smoke = this->TheScene.Smoke();
+  const Most most = ReduceCells(
+    this->Field.Cells, Most(),
+    [&](Most& value, std::int64_t cell)
+    {
+      const std::size_t index = this->Field.CellIndex(band, cell);
+      value.Fluence = std::max<double>(value.Fluence,
+        this->DirectFluence.SmoothMean(cell, band) + Mean(this->Field.MultipleFluence[index]));
+      value.Emission = std::max<double>(value.Emission, smoke.EmittedLuminance(cell));
+    },
+    [](const Most& a, const Most& b) {
+      return Most{std::max(a.Fluence, b.Fluence), std::max(a.Emission, b.Emission)};
+    });
+  const double albedo = this->TheScene.Albedo();
+  return albedo * (lamp + MostOverMean * most.Fluence / (4.0 * glm::pi<double>())) +
+         (1.0 - albedo) * most.Emission;
 }
 
 void View::Implementation::AddMultiple(
@@ -112,9 +169,9 @@ void View::Implementation::AddMultiple(
   }
 }
 
-View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field)
+View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field, bool skips)
     : Scene_(std::move(scene)), Field_(std::move(field)),
-      Implementation_(std::make_unique<Implementation>(*this->Scene_, *this->Field_))
+      Implementation_(std::make_unique<Implementation>(*this->Scene_, *this->Field_, skips))
 {
 }
 
@@ -125,10 +182,15 @@ Hit View::FirstHit(const Vec3& origin, const Vec3& direction, double end) const
   return this->Scene_->Shapes().Intersect(origin, direction, 0.0, end);
 }
 
-RayLight View::TraceVeil(
-  const Vec3& origin, const Vec3& direction, double begin, double end, int band) const
+std::size_t View::RaysCutShort() const
 {
-  const Implementation& self = *this->Implementation_;
+  return this->Implementation_->CutShort;
+}
+
+RayLight View::TraceVeil(
+  const Vec3& origin, const Vec3& direction, double begin, double end, int band, double ahead) const
+{
+  Implementation& self = *this->Implementation_;
   const Medium& smoke = this->Scene_->Smoke();
   const double scale = this->Scene_->ExtinctionScale(band);
   const double albedo = this->Scene_->Albedo();
@@ -138,33 +200,38 @@ RayLight View::TraceVeil(
     begin > 0.0 ? scale * smoke.OpticalDepth(origin, direction, 0.0, begin) : 0.0;
   thread_local std::vector<Segment> segments;
   smoke.WalkSmoke(origin, direction, begin, end, segments);
-  double ahead = std::exp(-light.OpticalDepth);
+  double passed = std::exp(-light.OpticalDepth);
+  bool cut = false;
   for (const Segment& segment : segments)
   {
     const double extinction = smoke.Extinction(segment.Cell) * scale;
     const double length = segment.End - segment.Begin;
     const double depth = extinction * length;
-    if (depth > 0.0 && light.OpticalDepth < DeepestVeil)
+    // What is left of the brightest smoke, from here to the end of the ray.
+    cut = cut || passed * self.Brightest[band] <
+                   self.Negligible * (ahead + light.VeilDirect + Mean(light.VeilMultiple));
+    if (depth > 0.0 && !cut && light.OpticalDepth < DeepestVeil)
     {
       const SmokePiece piece(
         segment.Cell, origin + segment.Begin * direction, length * direction, depth);
       if (albedo > 0.0)
       {
-        const double weight = scatter * ahead;
+        const double weight = scatter * passed;
         light.VeilDirect += weight * self.DirectFluence.SmoothEmerging(piece, band);
         self.AddMultiple(piece, band, weight, light.VeilMultiple);
         if (self.DirectFluence.Near(segment.Cell))
         {
-          light.VeilDirect += ahead * self.DirectFluence.NearVeil(segment.Cell, origin, direction,
-                                        segment.Begin, segment.End, extinction, band);
+          light.VeilDirect += passed * self.DirectFluence.NearVeil(segment.Cell, origin, direction,
+                                         segment.Begin, segment.End, extinction, band);
         }
       }
       light.VeilDirect +=
-        (1.0 - albedo) * ahead * piece.Lost * smoke.EmittedLuminance(segment.Cell);
-      ahead *= piece.Passed;
+        (1.0 - albedo) * passed * piece.Lost * smoke.EmittedLuminance(segment.Cell);
+      passed *= piece.Passed;
     }
     light.OpticalDepth += depth;
   }
+  self.CutShort.fetch_add(cut ? 1 : 0, std::memory_order_relaxed);
   return light;
 }
 

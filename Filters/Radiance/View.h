@@ -39,7 +39,10 @@ struct RayLight
 class View
 {
 public:
-  View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field);
+  /// @param skips whether rays are cut short where so much smoke lies before the rest of a ray that
+  /// it adds next to nothing; off: to measure what that saves
+  View(
+    std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field, bool skips = true);
   ~View();
 
   const Scene& TheScene() const { return *this->Scene_; }
@@ -56,8 +59,13 @@ public:
 
   /// Only the share of that light that the smoke between two distances sends (Surface stays 0). The
   /// optical depth is that of the ray from its origin to `end`.
-  RayLight TraceVeil(
-    const Vec3& origin, const Vec3& direction, double begin, double end, int band) const;
+  /// @param ahead veil of the smoke up to `begin` [cd/m2]: what adds next to nothing to it counts
+  /// as nothing
+  RayLight TraceVeil(const Vec3& origin, const Vec3& direction, double begin, double end, int band,
+    double ahead = 0.0) const;
+
+  /// Rays so far of which a part was left out, since it adds next to nothing.
+  std::size_t RaysCutShort() const;
 
   /// Mean over lines of sight from one origin of RayLight::VeilMultiple, gathered anew: for where
   /// the field knows it too badly.

@@ -251,6 +251,13 @@ void SkipSigns(ResultTable& table, const Settings& settings)
       return values;
     });
   places.CutOff = 0.0;
+  const View whole(hall.TheScene, hall.Field, false);
+  Compare(table, "veil behind smoke that hides it", "the same",
+    [&](bool skips)
+    {
+      const FloorMap map = ComputeFloorMap(skips ? *hall.TheView : whole, places, progress);
+      return Values(map.Contrast.begin(), map.Contrast.end());
+    });
   Compare(table, "signs that face away", "the same",
     [&](bool skips)
     {

@@ -149,4 +149,70 @@ TEST(SignSkip, SignsThatShowInAPart)
   ExpectKept(reflecting, {5.0, 2.0, 2.0}, 0.1);
 }
 
+/// Looks at the first sign along the corridor, with and without the veil that smoke ahead hides.
+/// Adds to the rays that were cut short.
+void ExpectAlike(const SceneDescription& scene, double tolerance, const std::vector<double>& from,
+  std::size_t& cutShort)
+{
+  const Solved solved(scene, tolerance);
+  const View whole(solved.TheScene, solved.Field, false);
+  for (const double x : from)
+  {
+    const Vec3 eye(x, 2.1, 1.7);
+    const SignMeasurement expected = MeasureSign(whole, 0, eye, Observer{});
+    const SignMeasurement value = MeasureSign(*solved.TheView, 0, eye, Observer{});
+    ASSERT_GT(expected.MeanLuminance, 0.0);
+    // A hundredth of the tolerance from close to the plate, and as much from before.
+    EXPECT_NEAR(value.MeanLuminance / expected.MeanLuminance, 1.0, 0.02 * tolerance) << x;
+    EXPECT_NEAR(value.Contrast, expected.Contrast, 0.02 * tolerance) << x;
+  }
+  EXPECT_EQ(whole.RaysCutShort(), 0U);
+  cutShort += solved.TheView->RaysCutShort();
+}
+
+/// A corridor with a sign at its end.
+SceneDescription CorridorToASign(double extinction)
+{
+  SceneDescription scene = scenes::Corridor(extinction, 15, 0.8);
+  const auto sign =
+    scenes::Barcode({59.99, 2.0, 2.0}, {-1, 0, 0}, {0, 0, 1}, 0.6, 1.0, 5, 200.0, 0, 0.3);
+  scene.Emitters.insert(scene.Emitters.begin(), sign.begin(), sign.end());
+  return scene;
+}
+
+// Rays are cut short where smoke ahead hides what lies behind, and only there: not before a lamp,
+// or a flame, ten million times as bright as others, and not where the smoke before a part of the
+// sign has a gap.
+TEST(SignSkip, VeilBehindSmokeThatHidesIt)
+{
+  const std::vector<double> places = {5.0, 20.0, 35.0, 45.0, 55.0};
+  for (const double tolerance : {0.1, 0.03})
+  {
+    std::size_t cutShort = 0;
+    ExpectAlike(CorridorToASign(1.0), tolerance, places, cutShort);
+    EXPECT_GT(cutShort, 60U);
+  }
+  std::size_t cutShort = 0;
+  SceneDescription lamp = CorridorToASign(1.0);
+  lamp.Emitters.push_back(scenes::Plate({57.0, 2.0, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1e10));
+  ExpectAlike(lamp, 0.1, places, cutShort);
+
+  SceneDescription flame = CorridorToASign(1.0);
+  std::vector<float>& emitted = flame.Grids[0].EmittedLuminance;
+  emitted.assign(flame.Grids[0].Extinction.size(), 0.0F);
+  for (std::size_t cell = 0; cell < emitted.size(); ++cell)
+  {
+    emitted[cell] = cell % 120 == 112 ? 1e10F : 0.0F;
+  }
+  ExpectAlike(flame, 0.1, places, cutShort);
+
+  SceneDescription gap = CorridorToASign(3.0);
+  for (std::size_t cell = 0; cell < gap.Grids[0].Extinction.size(); ++cell)
+  {
+    const bool level = cell / (std::size_t{120} * 8) == 4;
+    gap.Grids[0].Extinction[cell] = level ? 0.02F : 3.0F;
+  }
+  ExpectAlike(gap, 0.1, places, cutShort);
+}
+
 } // namespace
