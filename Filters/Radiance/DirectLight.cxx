@@ -13,10 +13,9 @@ namespace smokevis
 namespace
 {
 
-/// A plate of a radius of so many cell edges, at most, is reached by ways that vary little.
+/// A plate of a radius of so many cell edges, at most, is reached by ways that vary little. A wider
+/// one is looked at so only above LeafRatio, where many parts of it ask for ways.
 constexpr double WaysEdges = 1.0;
-/// A wider one is looked at so only above this r/d, where many parts of it ask for ways.
-constexpr double CloseRatio = 0.7;
 /// By how much the edges of a leaf may be off a rectangle's, in shares of them.
 constexpr double EdgeShare = 1e-6;
 /// Those to its corners tell of all where they tell of that to its middle, to this optical depth,
@@ -40,8 +39,7 @@ bool IsRectangle(const std::array<Vec3, 4>& corners)
 
 DirectLight::DirectLight(const Scene& scene, const NearLights* near, double tolerance)
     : Scene_(scene), Sight_(scene.Shapes()), Near_(near), Bend_(BendFor(tolerance)),
-      Flat_(FlatDepth * std::clamp(tolerance / FineTolerance, 1.0, MostTimes)),
-      Coarse_(tolerance > FineTolerance)
+      Flat_(FlatDepth * std::clamp(tolerance / FineTolerance, 1.0, MostTimes))
 {
 }
 
@@ -84,7 +82,7 @@ std::optional<DirectLight::Ways> DirectLight::WaysTo(
   const double distance = glm::length(root.Centre - point);
   const bool wide = root.Radius > WaysEdges * LargestEdge(smoke.CellSize(cell));
   const bool behind = glm::dot(point - root.Centre, root.Normal) < -root.Depth;
-  if (wide ? behind || root.Radius < CloseRatio * distance || !IsRectangle(root.Corners)
+  if (wide ? behind || root.Radius < LeafRatio * distance || !IsRectangle(root.Corners)
            : root.FirstChild < 0)
   {
     return std::nullopt;

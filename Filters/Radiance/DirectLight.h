@@ -75,6 +75,9 @@ private:
   /// One way stands for all ways to a group of radius r at a distance d below this r/d; above it
   /// each Gauss point of a leaf has its own.
   static constexpr double PathRatio = 0.1;
+  /// A leaf of a light is split above this r/d, where three Gauss points an edge do not follow its
+  /// transmittance any more.
+  static constexpr double LeafRatio = 0.7;
   /// A box as large as this share of its distance to the light is split, so often at most.
   static constexpr double BoxRatio = 0.5;
   static constexpr int BoxSplits = 3;
@@ -386,8 +389,6 @@ private:
   double Bend_;
   /// Optical depth of a box, of any band, above which it is measured at Gauss points.
   double Flat_;
-  /// Whether it will do to know shadows' edges roughly.
-  bool Coarse_;
 };
 
 } // namespace smokevis

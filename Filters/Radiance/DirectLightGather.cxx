@@ -20,17 +20,15 @@ namespace
 /// more.
 constexpr double PointRatio = 1.0 / 32.0;
 constexpr double LeafPointRatio = 1.0 / 128.0;
-/// A leaf is split above this r/d, where three Gauss points an edge do not follow its transmittance
-/// any more: in four, or in two where one edge is so many times the other. How often: that in four
-/// counts three times.
-constexpr double LeafRatio = 0.7;
+/// How often a leaf is split above LeafRatio: in four, which counts three times, or in two where
+/// one edge is so many times the other.
 constexpr int LeafSplits = 12;
 /// The same where light goes as a power of the cosine, which no few points follow close to a leaf:
 /// parts are split down to their distance.
 constexpr int SteepLeafSplits = 66;
 constexpr int SplitInFour = 3;
 constexpr double SlenderRatio = 1.517;
-/// The same ratio for what a horizon leaves of a leaf, however sharp its law.
+/// LeafRatio for what a horizon leaves of a leaf, however sharp its law.
 constexpr double CutLeafRatio = 0.3;
 /// Above this r/d a leaf that a receiver's horizon cuts counts as what is above it.
 constexpr double CutRatio = 0.02;

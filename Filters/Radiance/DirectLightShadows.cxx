@@ -18,9 +18,8 @@ namespace
 {
 
 /// Ways from places in a cell to places of a light that tell the share of it that is not hidden:
-/// enough to know it to some 2 % where the edge of a shadow crosses the cell, and to some 3 %.
+/// enough to know it to some 2 % where the edge of a shadow crosses the cell.
 constexpr std::uint64_t ShadowWays = 64;
-constexpr std::uint64_t CoarseShadowWays = 32;
 constexpr std::uint64_t ShadowKey = 0x5ad0e;
 /// Where a cell is asked what it sees, from its centre in shares of its edges: faces of walls and
 /// lights often lie level with centres, and rounding would decide.
@@ -230,7 +229,6 @@ std::vector<double> DirectLight::ShownIn(
   {
     known.Sights[unknown[answer]] = answers[answer];
   }
-  const std::uint64_t ways = this->Coarse_ ? CoarseShadowWays : ShadowWays;
   std::vector<double> shares;
   shares.reserve(block.Cells());
   for (const std::size_t number : own)
@@ -253,7 +251,7 @@ std::vector<double> DirectLight::ShownIn(
       asked &&
       (seen == Sight::Parted || (!roughly && std::any_of(beside.begin(), beside.end(), differs)));
     shares.push_back(
-      crossed ? this->ShownShare(light, cell, ways) : (asked && seen == Sight::Whole ? 1.0 : 0.0));
+      crossed ? this->ShownShare(light, cell, ShadowWays) : (asked && seen == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

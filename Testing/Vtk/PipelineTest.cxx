@@ -100,6 +100,35 @@ TEST_F(PipelineTest, DoesNotAskForPiecesOfTheSmoke)
     this->View->GetOutput()->GetFieldData()->GetArray("Contrast")->GetComponent(0, 0), whole);
 }
 
+// How exactly light close to a sign is known hangs on the tolerance that the light field was solved
+// to; views of one that does not tell its tolerance take it for a small one.
+TEST_F(PipelineTest, KnowsTheToleranceOfTheLightField)
+{
+  FillExtinction(this->Smoke, 0.5);
+  this->Field->SetAlbedo(0.8);
+  this->Field->SetTolerance(0.1);
+  const double veiled = this->Result("UnlitLuminance");
+  EXPECT_GT(veiled, 0.0);
+  vtkNew<vtkPartitionedDataSetCollection> copy;
+  copy->DeepCopy(this->Field->GetOutputDataObject(0));
+  this->View->SetInputDataObject(0, copy);
+  EXPECT_EQ(this->Result("UnlitLuminance"), veiled);
+  vtkNew<vtkPartitionedDataSetCollection> untold;
+  untold->DeepCopy(copy);
+  untold->GetFieldData()->RemoveArray("Tolerance");
+  for (unsigned int i = 0; i < untold->GetNumberOfPartitionedDataSets(); ++i)
+  {
+    for (unsigned int j = 0; j < untold->GetNumberOfPartitions(i); ++j)
+    {
+      untold->GetPartitionAsDataObject(i, j)->GetFieldData()->RemoveArray("Tolerance");
+    }
+  }
+  this->View->SetInputDataObject(0, untold);
+  const double fine = this->Result("UnlitLuminance");
+  EXPECT_NEAR(fine, veiled, 0.02 * veiled);
+  EXPECT_NE(fine, veiled);
+}
+
 // A ceiling that slopes through the cells: what lies above it and below it is kept apart in the
 // data, and views of a copy see what views of the light field itself do.
 TEST_F(PipelineTest, KeepsThePartsOfCellsThatWallsCut)
