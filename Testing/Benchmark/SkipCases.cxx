@@ -16,6 +16,8 @@ namespace
 constexpr double SkipTolerance = 0.1;
 /// With and without by turns, so often; the shortest of each counts.
 constexpr int Turns = 3;
+/// Contrasts below this count as so large: nobody sees them.
+constexpr double LeastContrast = 0.01;
 
 /// Values that are held against each other.
 using Values = std::vector<double>;
@@ -256,7 +258,12 @@ void SkipSigns(ResultTable& table, const Settings& settings)
     [&](bool skips)
     {
       const FloorMap map = ComputeFloorMap(skips ? *hall.TheView : whole, places, progress);
-      return Values(map.Contrast.begin(), map.Contrast.end());
+      Values values;
+      for (const float contrast : map.Contrast)
+      {
+        values.push_back(std::max<double>(contrast, LeastContrast));
+      }
+      return values;
     });
   Compare(table, "signs that face away", "the same",
     [&](bool skips)
