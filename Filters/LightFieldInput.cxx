@@ -104,7 +104,15 @@ void LightFieldInput::Load(vtkDataObject* input)
     std::equal(arrays.begin(), arrays.end(), this->Light_.begin(), this->Light_.end(),
       [](vtkDataArray* array, const LightArray& last)
       { return array && array == last.Array && array->GetMTime() == last.Time; });
-  if (this->View_ && sameLight && this->Scenes_.IsLast(description))
+  // Light fields from elsewhere may tell of none.
+  double tolerance = 0.0;
+  if (FieldNumber(input, "Tolerance", 0, tolerance) && !(tolerance > 0.0 && tolerance <= 1.0))
+  {
+    throw Error("light field", "its Tolerance is " + std::to_string(tolerance),
+      "Give the one that it was solved to, above 0 and at most 1, or remove it");
+  }
+  if (this->View_ && sameLight && this->View_->Field().Tolerance == tolerance &&
+      this->Scenes_.IsLast(description))
   {
     this->Report_ = {{"views set up", 0.0, "the light field holds what it held before"}};
     return;
@@ -118,8 +126,7 @@ void LightFieldInput::Load(vtkDataObject* input)
                             : "shapes are new"},
     LeaptAir(scene->Smoke())};
   auto field = std::make_shared<LightField>(LoadLightField(blocks, scene->Smoke(), bands));
-  // Those from elsewhere may tell of none.
-  FieldNumber(input, "Tolerance", 0, field->Tolerance);
+  field->Tolerance = tolerance;
   this->View_ = std::make_unique<const View>(std::move(scene), std::move(field));
   for (vtkDataArray* const array : arrays)
   {

@@ -131,7 +131,7 @@ public:
   ///@{
   /**
    * Relative standard error that luminances of the veil are to have, above 0, at most 1. Above 0.05
-   * light close to signs and lamps is known to two percent, else to one or better. Default: 0.01.
+   * light close to signs and lamps is known to two percent only. Default: 0.01.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);

@@ -1,6 +1,7 @@
 // How a field that is known by its cell means varies inside the cells.
 #pragma once
 
+#include "Box.h"
 #include "ExponentialMean.h"
 #include "SmokePiece.h"
 #include "Types.h"
@@ -21,6 +22,8 @@ class CellShape
 public:
   /// Most change of the logarithm of a field across a cell.
   static constexpr double SteepestChange = 4.0;
+  /// Largest value over the mean where it changes so along three axes: (4 / (1 - exp(-4)))^3.
+  static constexpr double LargestOfAll = 67.7;
   /// Mean of the field in the second cell, as the first, its neighbour, sees it; 0: not known.
   using Means = std::function<float(std::int64_t, std::int64_t)>;
 
@@ -48,6 +51,18 @@ public:
     const Vec3 from = point - this->Lower_;
     return std::exp(static_cast<float>(
       slope.Offset + slope.Slope[0] * from.x + slope.Slope[1] * from.y + slope.Slope[2] * from.z));
+  }
+
+  /// Largest value in a cell over the mean there, at most LargestOfAll.
+  double Largest(std::int64_t cell, const Box& bounds) const
+  {
+    Vec3 corner;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      corner[axis] =
+        this->LogarithmSlope(cell, axis) > 0.0 ? bounds.Upper[axis] : bounds.Lower[axis];
+    }
+    return this->Value(cell, corner);
   }
 
   /// What a field of mean 1 in the cell, as a source, sends out of a piece of a ray at its

@@ -31,10 +31,14 @@ public:
     return this->Means_[index] > 0.0F ? this->Means_[index] * this->Shapes_[band].Value(cell, point)
                                       : 0.0;
   }
-  /// Its mean over a cell [lx].
+  /// Its mean over a cell, and its largest value there [lx].
   double SmoothMean(std::int64_t cell, int band) const
   {
     return this->Means_[band * this->Cells_ + cell];
+  }
+  double SmoothMost(std::int64_t cell, const Box& bounds, int band) const
+  {
+    return this->SmoothMean(cell, band) * this->Shapes_[band].Largest(cell, bounds);
   }
   /// What a piece of a ray sends out at its beginning of that fluence (CellShape::Emerging) [lx].
   double SmoothEmerging(const SmokePiece& piece, int band) const

@@ -250,8 +250,8 @@ std::vector<double> DirectLight::ShownIn(
     const bool crossed =
       asked &&
       (seen == Sight::Parted || (!roughly && std::any_of(beside.begin(), beside.end(), differs)));
-    shares.push_back(
-      crossed ? this->ShownShare(light, cell, ShadowWays) : (asked && seen == Sight::Whole ? 1.0 : 0.0));
+    shares.push_back(crossed ? this->ShownShare(light, cell, ShadowWays)
+                             : (asked && seen == Sight::Whole ? 1.0 : 0.0));
   }
   return shares;
 }

@@ -44,7 +44,7 @@ struct LightField
   int Bands = 1;
   std::size_t Cells = 0;
   std::size_t Patches = 0;
-  /// What it was solved to: see LightFieldOptions.
+  /// What it was solved to: see LightFieldOptions. 0: not known, and taken for a small one.
   double Tolerance = 0.0;
   /// Mean over each cell of the fluence [lx] that comes straight from emitters: [band][cell].
   std::vector<float> DirectFluence;

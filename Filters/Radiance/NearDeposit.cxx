@@ -23,7 +23,7 @@ constexpr double Rays = 524288.0;
 constexpr double FewestOfLight = 4096.0;
 constexpr double MostOfLight = 32768.0;
 constexpr double FewestOfLeaf = 64.0;
-/// Share of those that do where it is known roughly.
+/// Share of these rays that will do to know it to a percent.
 constexpr double CoarseShare = 0.5;
 /// Rays are followed in so many parts, whose sums are added in their order.
 constexpr std::uint64_t Parts = 8;

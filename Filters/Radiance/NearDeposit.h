@@ -20,8 +20,7 @@ public:
   /// @param light index into EmitterSet::Lights
   /// @param cells that are asked for
   /// @param coarse whether it will do to know each to a percent
-  NearDeposit(
-    const Scene& scene, std::size_t light, std::vector<std::int64_t> cells, bool coarse = false);
+  NearDeposit(const Scene& scene, std::size_t light, std::vector<std::int64_t> cells, bool coarse);
 
   /// Mean fluence over each of the cells [lx].
   std::vector<Spectrum> Run() const;

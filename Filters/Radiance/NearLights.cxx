@@ -40,11 +40,13 @@ constexpr std::size_t MostDeposits = 32;
 constexpr double StepOverUnevenness = 0.02;
 constexpr double FinestStep = 0.25;
 
+/// What coarse ones ask of direct light: as little as any tolerance does.
+constexpr double CoarseTolerance = 0.1;
+
 } // namespace
 
 NearLights::NearLights(const Scene& scene, bool coarse)
-    : Scene_(scene), Coarse_(coarse),
-      Direct_(scene, nullptr, coarse ? 2.0 * DirectLight::FineTolerance : 0.0),
+    : Scene_(scene), Coarse_(coarse), Direct_(scene, nullptr, coarse ? CoarseTolerance : 0.0),
       Fields_(scene.Lights().Lights().size()), DepositsIn_(Fields_.size()),
       Deposited_(Fields_.size()), Bands_(scene.Bands())
 {

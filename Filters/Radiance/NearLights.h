@@ -20,7 +20,7 @@ namespace smokevis
 class NearLights
 {
 public:
-  /// @param coarse whether it will do to know their fluences to some percent
+  /// @param coarse whether it will do to know their fluences to two percent
   NearLights(const Scene& scene, bool coarse);
 
   struct Light

@@ -21,6 +21,10 @@ namespace smokevis
 class NearMultiple
 {
 public:
+  /// Value() is nowhere larger: all of the light at one of eight Gauss points, continued to the
+  /// corner of the cell beside it, 8 (1/2 + sqrt(3)/2)^3.
+  static constexpr double Largest = 20.4;
+
   /// @param light must outlive this
   explicit NearMultiple(const IndirectLight& light);
 

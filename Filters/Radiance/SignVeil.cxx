@@ -3,6 +3,7 @@
 #include "GaussNodes.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace smokevis
@@ -108,10 +109,10 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
       trace(way);
     }
   }
-  double ahead = this->Ways_[Middle].Light.Veil();
-  for (const std::size_t corner : Corners)
+  double ahead = std::numeric_limits<double>::infinity();
+  for (const Way& way : this->Ways_)
   {
-    ahead = std::min(ahead, this->Ways_[corner].Light.Veil());
+    ahead = std::min(ahead, way.Light.Veil());
   }
   this->Near_.resize(columns.Count() * rows.Count());
   for (std::size_t row = 0; row < rows.Count(); ++row)

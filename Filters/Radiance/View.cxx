@@ -25,8 +25,6 @@ constexpr double LeakShare = 1e-4;
 /// Share of the veil of the smoke ahead, in shares of the light field's tolerance, below which what
 /// lies behind is left out.
 constexpr double NegligibleShare = 0.01;
-/// How many times as much light as in the mean over its cell there may be at a place.
-constexpr double MostOverMean = 8.0;
 /// How many times as much as an evenly bright plate leaves right before it one of a measured law
 /// may leave there: light that comes along it goes with the logarithm of the distance.
 constexpr double MostOfMeasured = 8.0;
@@ -103,7 +101,8 @@ struct View::Implementation
   Spectrum Brightest{};
   /// Share of the veil ahead that counts as nothing.
   double Negligible = 0.0;
-  std::atomic<std::size_t> CutShort{0};
+  /// In a line of the cache that nothing else is read from.
+  alignas(64) std::atomic<std::size_t> CutShort{0};
 };
 
 void View::Implementation::FindLeak()
@@ -122,6 +121,7 @@ void View::Implementation::FindLeak()
 
 double View::Implementation::BrightestSmoke(int band) const
 {
+  const double albedo = this->TheScene.Albedo();
   double lamp = 0.0;
   const EmitterSet& lights = this->TheScene.Lights();
   for (std::size_t cell = 0; cell < lights.Cells().size(); ++cell)
@@ -141,16 +141,23 @@ double View::Implementation::BrightestSmoke(int band) const
     this->Field.Cells, Most(),
     [&](Most& value, std::int64_t cell)
     {
-      const std::size_t index = this->Field.CellIndex(band, cell);
-      value.Fluence = std::max<double>(value.Fluence,
-        this->DirectFluence.SmoothMean(cell, band) + Mean(this->Field.MultipleFluence[index]));
       value.Emission = std::max<double>(value.Emission, smoke.EmittedLuminance(cell));
+      const double multiple = Mean(this->Field.MultipleFluence[this->Field.CellIndex(band, cell)]);
+      const double smooth = this->DirectFluence.SmoothMean(cell, band);
+      if (albedo > 0.0 && CellShape::LargestOfAll * (smooth + multiple) > value.Fluence)
+      {
+        const Box bounds = smoke.CellBounds(cell);
+        const double larger = this->MultipleNear[band]->Tells(cell)
+                                ? NearMultiple::Largest
+                                : this->MultipleShape[band].Largest(cell, bounds);
+        value.Fluence = std::max(
+          value.Fluence, this->DirectFluence.SmoothMost(cell, bounds, band) + larger * multiple);
+      }
     },
     [](const Most& a, const Most& b) {
       return Most{std::max(a.Fluence, b.Fluence), std::max(a.Emission, b.Emission)};
     });
-  const double albedo = this->TheScene.Albedo();
-  return albedo * (lamp + MostOverMean * most.Fluence / (4.0 * glm::pi<double>())) +
+  return albedo * (lamp + most.Fluence / (4.0 * glm::pi<double>())) +
          (1.0 - albedo) * most.Emission;
 }
 
@@ -187,6 +194,11 @@ std::size_t View::RaysCutShort() const
   return this->Implementation_->CutShort;
 }
 
+double View::BrightestSmoke(int band) const
+{
+  return this->Implementation_->Brightest[band];
+}
+
 RayLight View::TraceVeil(
   const Vec3& origin, const Vec3& direction, double begin, double end, int band, double ahead) const
 {
@@ -201,6 +213,8 @@ RayLight View::TraceVeil(
   thread_local std::vector<Segment> segments;
   smoke.WalkSmoke(origin, direction, begin, end, segments);
   double passed = std::exp(-light.OpticalDepth);
+  const double brightest = self.Brightest[band];
+  const double negligible = self.Negligible;
   bool cut = false;
   for (const Segment& segment : segments)
   {
@@ -208,9 +222,10 @@ RayLight View::TraceVeil(
     const double length = segment.End - segment.Begin;
     const double depth = extinction * length;
     // What is left of the brightest smoke, from here to the end of the ray.
-    cut = cut || passed * self.Brightest[band] <
-                   self.Negligible * (ahead + light.VeilDirect + Mean(light.VeilMultiple));
-    if (depth > 0.0 && !cut && light.OpticalDepth < DeepestVeil)
+    const bool counts = depth > 0.0 && light.OpticalDepth < DeepestVeil;
+    cut = cut || (counts && passed * brightest <
+                              negligible * (ahead + light.VeilDirect + Mean(light.VeilMultiple)));
+    if (counts && !cut)
     {
       const SmokePiece piece(
         segment.Cell, origin + segment.Begin * direction, length * direction, depth);
@@ -231,7 +246,10 @@ RayLight View::TraceVeil(
     }
     light.OpticalDepth += depth;
   }
-  self.CutShort.fetch_add(cut ? 1 : 0, std::memory_order_relaxed);
+  if (cut)
+  {
+    self.CutShort.fetch_add(1, std::memory_order_relaxed);
+  }
   return light;
 }
 

@@ -35,7 +35,8 @@ struct RayLight
   Lanes TotalLanes() const;
 };
 
-/// A light field and what views of it need. Immutable; Trace may be called from many threads.
+/// A light field and what views of it need. Immutable but for a count; Trace may be called from
+/// many threads.
 class View
 {
 public:
@@ -64,8 +65,11 @@ public:
   RayLight TraceVeil(const Vec3& origin, const Vec3& direction, double begin, double end, int band,
     double ahead = 0.0) const;
 
-  /// Rays so far of which a part was left out, since it adds next to nothing.
+  /// Rays so far, of each band, of which a part was left out, since it adds next to nothing.
   std::size_t RaysCutShort() const;
+  /// Bound of the luminance that smoke sends out in any direction, were it infinitely thick
+  /// [cd/m2].
+  double BrightestSmoke(int band) const;
 
   /// Mean over lines of sight from one origin of RayLight::VeilMultiple, gathered anew: for where
   /// the field knows it too badly.

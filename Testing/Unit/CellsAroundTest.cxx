@@ -23,6 +23,9 @@ std::size_t CheckBlocks(const Medium& smoke, int edge)
     for (std::size_t number = 0; number < around.Count(); ++number)
     {
       EXPECT_TRUE(cells.insert(around.Cell(number)).second);
+      const Box expected = smoke.CellBounds(around.Cell(number));
+      EXPECT_EQ(around.Bounds(number).Lower, expected.Lower);
+      EXPECT_EQ(around.Bounds(number).Upper, expected.Upper);
     }
     block.ForEachCell(
       [&](const std::array<int, 3>& place)

@@ -13,8 +13,8 @@ namespace
 
 using namespace smokevis;
 
-/// To the largest tolerance at which lattices are fine, and to one at which they are coarse: twice as
-/// much may be unknown then.
+/// To the largest tolerance at which lattices are fine, and to one at which they are coarse: twice
+/// as much may be unknown then.
 class DirectFieldTest : public testing::TestWithParam<double>
 {
 protected:

@@ -192,6 +192,11 @@ TEST(SignSkip, VeilBehindSmokeThatHidesIt)
     ExpectAlike(CorridorToASign(1.0), tolerance, places, cutShort);
     EXPECT_GT(cutShort, 60U);
   }
+  const Solved solved(CorridorToASign(1.0), 0.1);
+  Progress progress;
+  const FloorMap map = ComputeFloorMap(*solved.TheView, PlacesFrom(5.0, 10), progress);
+  EXPECT_GT(WorkCount(map.Report, "rays cut short"), 300.0);
+
   std::size_t cutShort = 0;
   SceneDescription lamp = CorridorToASign(1.0);
   lamp.Emitters.push_back(scenes::Plate({57.0, 2.0, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 1e10));
