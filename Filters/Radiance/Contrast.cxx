@@ -1,5 +1,6 @@
 #include "Contrast.h"
 
+#include "DirectLight.h"
 #include "DivisionError.h"
 #include "PixelMoments.h"
 #include "SignSight.h"
@@ -26,7 +27,7 @@ constexpr double UncertainContrast = 0.005;
 /// Standard error that uneven smoke leaves the perceived one above which the plate is divided more
 /// finely.
 constexpr double UnevenContrast = 0.002;
-/// Zones of a finely divided plate above which the veil is not told by a ray to each.
+/// Zones of a plate behind uneven smoke above which the veil is not told by a ray to each.
 constexpr std::size_t MostRays = 1024;
 /// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
 /// of exponentials are no quadratics. Also of what is unknown of it.
@@ -200,9 +201,13 @@ void SignLook::FillFactors()
 void SignLook::MakeVeils()
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
+  // The veil before uneven smoke is as uneven; few rays tell it to some percent, as a large
+  // tolerance asks for.
+  const bool uneven = this->Fine_ || (this->Sight_.CutBySmoke() &&
+                                       this->View_.Field().Tolerance <= DirectLight::FineTolerance);
   for (int band = 0; band < this->Bands_; ++band)
   {
-    if (this->Sight_.PartlyHidden() || this->Glows_ || (this->Fine_ && places.size() <= MostRays))
+    if (this->Sight_.PartlyHidden() || this->Glows_ || (uneven && places.size() <= MostRays))
     {
       this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places));
     }

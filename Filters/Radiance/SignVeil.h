@@ -89,8 +89,8 @@ private:
   std::vector<std::array<Lanes, Nodes>> Near_;
 };
 
-/// Veil before what shows of a plate that is partly hidden, a ray to each place: rays past what
-/// hides it would tell of smoke that is not seen.
+/// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
+/// what hides it would tell of smoke that is not seen, and behind uneven smoke.
 class ShownVeil : public SignVeil
 {
 public:
