@@ -1,8 +1,8 @@
 #include "Contrast.h"
 
-#include "DirectLight.h"
 #include "DivisionError.h"
 #include "PixelMoments.h"
+#include "Roughness.h"
 #include "SignSight.h"
 #include "SignVeil.h"
 #include "ZoneChanges.h"
@@ -27,6 +27,9 @@ constexpr double UncertainContrast = 0.005;
 /// Standard error that uneven smoke leaves the perceived one above which the plate is divided more
 /// finely.
 constexpr double UnevenContrast = 0.002;
+/// Roughness of the optical depths over a plate above which the veil is told by a ray to each zone,
+/// as long as it is above the light field's tolerance: nine rays tell it to a third of that.
+constexpr double LargestRoughness = 0.03;
 /// Zones of a plate behind uneven smoke above which the veil is not told by a ray to each.
 constexpr std::size_t MostRays = 1024;
 /// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
@@ -90,6 +93,8 @@ private:
   /// Of each part.
   std::vector<std::vector<SeenBlock>> Blocks_;
   std::vector<ZoneChanges> Changes_;
+  /// Optical depths at 633 nm before all places.
+  std::vector<double> Depths_;
   /// Changes of the optical depth at 633 nm over the zones of each part.
   std::vector<std::vector<glm::dvec2>> DepthChanges_;
   /// What is unknown of the zones of each part, in the band of the largest extinction.
@@ -165,11 +170,13 @@ SeenBlock SignLook::SeenThrough(
 
 void SignLook::FillFactors()
 {
+  this->Depths_.resize(this->Sight_.Places().size());
   for (const SignSight::Part& part : this->Sight_.Parts())
   {
     std::vector<double> depths(part.Zones.size());
     std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
-      [this](const SignSight::Zone& zone) { return this->DepthOf(zone); });
+      [this](const SignSight::Zone& zone)
+      { return this->Depths_[zone.Place] = this->DepthOf(zone); });
     this->Glows_ =
       this->Glows_ || std::any_of(part.Zones.begin(), part.Zones.end(),
                         [this](const SignSight::Zone& zone) { return this->GlowsBefore(zone); });
@@ -201,10 +208,10 @@ void SignLook::FillFactors()
 void SignLook::MakeVeils()
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
-  // The veil before uneven smoke is as uneven; few rays tell it to some percent, as a large
-  // tolerance asks for.
-  const bool uneven = this->Fine_ || (this->Sight_.CutBySmoke() &&
-                                       this->View_.Field().Tolerance <= DirectLight::FineTolerance);
+  // The veil behind rough smoke is as rough, which few rays do not tell.
+  const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance);
+  const bool uneven =
+    this->Fine_ || this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) > rough;
   for (int band = 0; band < this->Bands_; ++band)
   {
     if (this->Sight_.PartlyHidden() || this->Glows_ || (uneven && places.size() <= MostRays))

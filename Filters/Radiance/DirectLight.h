@@ -28,8 +28,8 @@ struct LightGroup;
 class DirectLight
 {
 public:
-  /// Above this tolerance light near to lamps is known to two percent only (Scene::Near), and few
-  /// rays tell the veil behind uneven smoke (MeasureSign): veils are noisier.
+  /// Above this tolerance light near to lamps is known to two percent only (Scene::Near): veils are
+  /// noisier.
   static constexpr double FineTolerance = 0.05;
 
   /// @param near what is known of lights near to cells already; must outlive this

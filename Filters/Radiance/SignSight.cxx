@@ -145,18 +145,13 @@ std::array<int, 2> SignSight::Pixels(double acuity) const
   return {std::max(1, static_cast<int>(wide)), std::max(1, static_cast<int>(high))};
 }
 
-PlateBorders SignSight::Borders(double blocks)
+PlateBorders SignSight::Borders(double blocks) const
 {
   const double width = glm::length(this->EdgeU_);
   const double height = glm::length(this->EdgeV_);
   const double largest = std::max(width, height) / blocks;
   const auto bordersAlong = [&](const PlateColumns& columns, double part, int axis)
-  {
-    const std::vector<double> uncut = this->CutByFaces(BlockBorders(columns, part), axis);
-    std::vector<double> cut = this->CutAtUnevenSmoke(uncut, axis);
-    this->CutBySmoke_ = this->CutBySmoke_ || cut.size() > uncut.size();
-    return cut;
-  };
+  { return this->CutBySmoke(this->CutByFaces(BlockBorders(columns, part), axis), axis); };
   return {
     bordersAlong(this->Across_, largest / width, 0), bordersAlong(this->Up_, largest / height, 1)};
 }
@@ -184,7 +179,7 @@ std::vector<double> SignSight::CutByFaces(std::vector<double> borders, int axis)
   return borders;
 }
 
-std::vector<double> SignSight::CutAtUnevenSmoke(const std::vector<double>& borders, int axis) const
+std::vector<double> SignSight::CutBySmoke(const std::vector<double>& borders, int axis) const
 {
   using Depths = std::array<double, Lines.size()>;
   const Scene& scene = this->View_.TheScene();

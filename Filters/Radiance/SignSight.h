@@ -60,19 +60,17 @@ public:
   /// Solid angle of what is seen, and its share of what faces the eye.
   double Seen() const { return this->Seen_; }
   double VisibleFraction() const { return this->Seen_ / this->All_; }
-  /// Whether the smoke before the plate is so uneven that it cuts blocks.
-  bool CutBySmoke() const { return this->CutBySmoke_; }
   /// Whether something hides a part of what faces the eye.
   bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
 
 private:
-  PlateBorders Borders(double blocks);
+  PlateBorders Borders(double blocks) const;
   /// Adds borders along an edge (0: across, 1: up) where planes of cell faces through the eye meet
   /// the plate along the other edge: smoke may differ on both sides of them along the whole way.
   std::vector<double> CutByFaces(std::vector<double> borders, int axis) const;
   /// Borders along an edge, and more where the smoke before the plate dims it
   /// more at one border than at the next.
-  std::vector<double> CutAtUnevenSmoke(const std::vector<double>& borders, int axis) const;
+  std::vector<double> CutBySmoke(const std::vector<double>& borders, int axis) const;
   std::array<int, 2> Pixels(double acuity) const;
   PlatePattern PatternOf(
     const Facet& facet, const PatternAxis& across, const PatternAxis& up) const;
@@ -106,7 +104,6 @@ private:
   std::array<int, 2> Pixels_;
   /// Whether there are many blocks, since smoke is uneven.
   bool Fine_;
-  bool CutBySmoke_ = false;
   std::vector<bool> Lit_;
   std::vector<Part> Parts_;
   std::vector<SeenPlace> Places_;

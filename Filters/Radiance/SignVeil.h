@@ -90,7 +90,7 @@ private:
 };
 
 /// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
-/// what hides it would tell of smoke that is not seen, and behind uneven smoke.
+/// what hides it would tell of smoke that is not seen, and behind rough smoke.
 class ShownVeil : public SignVeil
 {
 public:

@@ -1,5 +1,6 @@
 // Where rays through smoke are cut short: by a bound of what smoke sends out.
 #include "View.h"
+#include "ReferenceIntegrator.h"
 #include "Sampler.h"
 #include "SceneLibrary.h"
 
