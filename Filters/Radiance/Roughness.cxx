@@ -1,6 +1,5 @@
 #include "Roughness.h"
 
-#include <array>
 #include <cmath>
 
 #include <Eigen/QR>
@@ -19,7 +18,8 @@ double Roughness(const std::vector<SeenPlace>& places, const std::vector<double>
   {
     const SeenPlace& place = places[i];
     const double weight = std::sqrt(place.Weight);
-    const auto [u, v] = std::array{place.OnPlate.x, place.OnPlate.y};
+    const double u = place.OnPlate.x;
+    const double v = place.OnPlate.y;
     terms.row(i) << weight, weight * u, weight * v, weight * u * u, weight * u * v, weight * v * v;
     weighted[i] = weight * values[i];
     weights += place.Weight;
