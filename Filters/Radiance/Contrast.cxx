@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -61,8 +62,8 @@ public:
   std::optional<SignMeasurement> Measure(double cutOff);
 
 private:
-  /// Optical depth at 633 nm of the smoke before a zone's middle.
-  double DepthOf(const SignSight::Zone& zone) const;
+  /// Optical depth at 633 nm of the smoke before a place.
+  double DepthBefore(const SeenPlace& place) const;
   /// Whether smoke on the way to its middle emits light.
   bool GlowsBefore(const SignSight::Zone& zone) const;
   /// What comes through the smoke before a zone, without its own light.
@@ -106,9 +107,9 @@ private:
   SignMeasurement Result_;
 };
 
-double SignLook::DepthOf(const SignSight::Zone& zone) const
+double SignLook::DepthBefore(const SeenPlace& place) const
 {
-  const Vec3 way = this->Sight_.Places()[zone.Place].Point - this->Eye_;
+  const Vec3 way = place.Point - this->Eye_;
   const double distance = glm::length(way);
   return this->View_.TheScene().Smoke().OpticalDepth(this->Eye_, way / distance, 0.0, distance);
 }
@@ -170,13 +171,14 @@ SeenBlock SignLook::SeenThrough(
 
 void SignLook::FillFactors()
 {
-  this->Depths_.resize(this->Sight_.Places().size());
+  const std::vector<SeenPlace>& places = this->Sight_.Places();
+  std::transform(places.begin(), places.end(), std::back_inserter(this->Depths_),
+    [this](const SeenPlace& place) { return this->DepthBefore(place); });
   for (const SignSight::Part& part : this->Sight_.Parts())
   {
     std::vector<double> depths(part.Zones.size());
     std::transform(part.Zones.begin(), part.Zones.end(), depths.begin(),
-      [this](const SignSight::Zone& zone)
-      { return this->Depths_[zone.Place] = this->DepthOf(zone); });
+      [this](const SignSight::Zone& zone) { return this->Depths_[zone.Place]; });
     this->Glows_ =
       this->Glows_ || std::any_of(part.Zones.begin(), part.Zones.end(),
                         [this](const SignSight::Zone& zone) { return this->GlowsBefore(zone); });

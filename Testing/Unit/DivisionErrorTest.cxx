@@ -3,6 +3,7 @@
 #include "PlateColumns.h"
 #include "PlatePattern.h"
 #include "SceneLibrary.h"
+#include "SignByRays.h"
 #include "View.h"
 
 #include <array>
@@ -45,31 +46,7 @@ const Observer Plain{0.0};
 /// Contrast over points of equal steps on the plate.
 double ContrastOfSteps(const View& view)
 {
-  constexpr int Steps = 120;
-  const EmitterSet& lights = view.TheScene().Lights();
-  double weight = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-  for (const std::size_t index : lights.Signs()[0].Cells)
-  {
-    const EmitterCell& cell = lights.Cells()[index];
-    const Vec3 along = cell.Vertices[1] - cell.Vertices[0];
-    const Vec3 up = cell.Vertices[3] - cell.Vertices[0];
-    for (int step = 0; step < Steps * Steps; ++step)
-    {
-      const Vec3 way = cell.Vertices[0] + (step % Steps + 0.5) / Steps * along +
-                       (step / Steps + 0.5) / Steps * up - Eye;
-      const double distance = glm::length(way);
-      const double seen = std::abs(glm::dot(glm::cross(along, up), way)) / std::pow(distance, 3.0);
-      const RayLight veil = view.TraceVeil(Eye, way / distance, 0.0, distance, 0);
-      const double light = cell.Luminance[0] * std::exp(-veil.OpticalDepth) + veil.Veil();
-      weight += seen;
-      first += seen * light;
-      second += seen * light * light;
-    }
-  }
-  const double mean = first / weight;
-  return std::sqrt(second / weight - mean * mean) / mean;
+  return MeasureByRays(view, Eye, {120, 120}).Contrast;
 }
 
 // Over forty draws of the smoke, none is off by more than three of its error bars or 0.005. Bars

@@ -2,6 +2,7 @@
 #include "Contrast.h"
 #include "ReferenceContrast.h"
 #include "SceneLibrary.h"
+#include "SignByRays.h"
 #include "Solved.h"
 #include "TestReport.h"
 
@@ -79,41 +80,6 @@ TEST(RandomRoom, TwelveLong)
   }
 }
 
-/// What many rays of a view tell of a sign that nothing hides, weighted by solid angle.
-struct ByRays
-{
-  double Contrast = 0.0;
-  double Unlit = 0.0;
-};
-
-ByRays ByManyRays(const Solved& solved, const Vec3& eye)
-{
-  constexpr int Across = 12;
-  constexpr int Along = 60;
-  const EmitterSet& lights = solved.TheScene->Lights();
-  const Sign& sign = lights.Signs()[0];
-  glm::dvec3 all(0.0);
-  glm::dvec2 unlit(0.0);
-  for (const std::size_t index : sign.Cells)
-  {
-    const EmitterCell& cell = lights.Cells()[index];
-    const Vec3 along = cell.Vertices[1] - cell.Vertices[0];
-    const Vec3 up = cell.Vertices[3] - cell.Vertices[0];
-    for (int place = 0; place < Across * Along; ++place)
-    {
-      const Vec3 way = cell.Vertices[0] + (place % Across + 0.5) / Across * along +
-                       (place / Across + 0.5) / Along * up - eye;
-      const double weight =
-        std::abs(glm::dot(glm::cross(along, up), way)) / std::pow(glm::length(way), 3.0);
-      const double light = solved.Trace({eye, glm::normalize(way)}).Total();
-      all += weight * glm::dvec3(1.0, light, light * light);
-      unlit += cell.Luminance[0] > 0.0 ? glm::dvec2(0.0) : weight * glm::dvec2(1.0, light);
-    }
-  }
-  const double mean = all[1] / all[0];
-  return {std::sqrt(all[2] / all[0] - mean * mean) / mean, unlit[1] / unlit[0]};
-}
-
 // Cells of these rooms differ by a factor of up to nine from the next, so that the veil is uneven
 // by 15 to 27 % over the bars that it decides on. A ray to each part of the plate knows what it is
 // there; how it varies over the part is left: luminance within 2 %, contrast within 0.005.
@@ -125,8 +91,8 @@ TEST(RandomRoom, DarkBarsBehindUnevenSmoke)
     const Solved solved(room.Description);
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{0.0});
     ASSERT_GT(sign.VisibleFraction, 0.999);
-    const ByRays rays = ByManyRays(solved, room.Eye);
-    EXPECT_NEAR(sign.UnlitLuminance / rays.Unlit, 1.0, 0.02) << seed;
+    const SignByRays rays = MeasureByRays(*solved.TheView, room.Eye, {12, 60});
+    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.02) << seed;
     EXPECT_NEAR(sign.Contrast, rays.Contrast, 0.005) << seed;
   }
 }
