@@ -307,6 +307,9 @@ private:
   Spectrum PointlikeMean(const BoxLight& light, const Vec3& centre, double extinction,
     const std::vector<GaussPlace>& places) const;
   Spectrum GaussFluence(const BoxLight& light, const Vec3& centre, const Vec3& size) const;
+  /// Whether a mean over the light's cell is right though smoke may dim the light unevenly: places
+  /// in it have ways of their own, or what comes in through its faces counts.
+  bool KnowsUneven(const BoxLight& light) const;
   /// Mean over the light's cell, corrected where smoke dims the light unevenly.
   /// @param fluence the mean by one way from each place to the light
   Spectrum UnevenFluence(const BoxLight& light, const Spectrum& fluence) const;
@@ -329,10 +332,20 @@ private:
     double Share = std::numeric_limits<double>::infinity();
     /// Whether what is told may be off by more than differences from cell to cell would bear.
     bool Rough = false;
+    /// Whether the corners tell of the others as well as ways across a far light are told.
+    bool Smooth = false;
   };
   /// Whether smoke may dim a light unevenly in a block, as some of its cells tell where few ways
   /// tell of all.
   bool UnevenIn(std::size_t light, const Medium::Block& block, const BlockWays& told) const;
+  /// Logarithms of what that makes of the light's mean in the cells at the corners of a block, of
+  /// each band.
+  using Corrections = std::array<std::array<double, 8>, MaxBands>;
+  /// These, if they tell of the cells between them; none where they do not, or not all cells that
+  /// are looked at are asked for.
+  /// @param asked of each cell of the block, x fastest; none: not asked for
+  std::optional<Corrections> TellUneven(
+    const Medium::Block& block, const std::vector<std::optional<BoxLight>>& asked) const;
   /// That bound; infinite where there is none.
   /// @param asked the cells that count, of each cell of the block, x fastest
   /// @param extinction smallest mean along the ways from these [1/m]

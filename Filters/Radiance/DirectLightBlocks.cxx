@@ -1,6 +1,7 @@
 // DirectLight's part for blocks of smoke cells, which share the ways to a light.
 #include "DirectLight.h"
 
+#include "BlockCorners.h"
 #include "CellsAround.h"
 #include "ClearBorders.h"
 #include "Scene.h"
@@ -173,6 +174,7 @@ DirectLight::BlockWays DirectLight::TellWays(const Known& known, const Medium::B
   // only where the corners do tell of what lies between.
   const double allowed = std::min(RoughWayTolerance, WayTolerance * std::max(1.0, 1.0 / first));
   told.Tell = ways.CornersTell(allowed);
+  told.Smooth = told.Tell && allowed <= this->Bend_;
   if (told.Tell)
   {
     const bool odd = ways.TellRest(asked, std::max(2.0 * WayTolerance, allowed / OddCells));
@@ -192,6 +194,7 @@ DirectLight::BlockWays DirectLight::WalkWays(const Known& known, const Medium::B
   ways.Walk(asked);
   walked.Share = this->LargestShare(known, block, asked, ways.Least(), 0.0, sums);
   walked.Extinction = ways.Extinction();
+  walked.Smooth = ways.WalkCorners() && ways.CornersTell(this->Bend_);
   return walked;
 }
 
@@ -263,17 +266,34 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
   const bool weak = ways.Share < WeakShare;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
     ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
-  const bool even = weak || !this->UnevenIn(light, block, ways);
+  std::vector<std::optional<BoxLight>> lights(block.Cells());
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
     {
       const std::size_t number = block.Number(place);
       if (asked[number])
       {
-        const std::int64_t cell = smoke.Cell(block, place);
-        const BoxLight own{light, cell, deepening[number], far, weak};
-        Accumulate(sums[cell], this->CellFluence(own, even), shown[number]);
+        lights[number] = BoxLight{light, smoke.Cell(block, place), deepening[number], far, weak};
       }
+    });
+  const bool even = weak || !this->UnevenIn(light, block, ways);
+  const std::optional<Corrections> uneven =
+    even || !ways.Smooth ? std::nullopt : this->TellUneven(block, lights);
+  block.ForEachCell(
+    [&](const std::array<int, 3>& place)
+    {
+      const std::size_t number = block.Number(place);
+      if (!asked[number])
+      {
+        return;
+      }
+      const BoxLight& own = *lights[number];
+      Spectrum fluence = this->CellFluence(own, even || uneven);
+      for (int band = 0; uneven && !this->KnowsUneven(own) && band < this->Scene_.Bands(); ++band)
+      {
+        fluence[band] *= std::exp(BetweenCorners((*uneven)[band], block, place));
+      }
+      Accumulate(sums[own.Cell], fluence, shown[number]);
     });
 }
 

@@ -2,6 +2,7 @@
 // the upper and to the lower edge of a sign differ much, however far it is.
 #include "DirectLight.h"
 
+#include "BlockCorners.h"
 #include "GaussNodes.h"
 #include "Scene.h"
 
@@ -31,6 +32,11 @@ constexpr double ScatteredShare = 1.0 / 3.0;
 /// which their middles stand for them.
 constexpr double PairedSpan = 3.0;
 constexpr double LittleAside = 0.2;
+/// Share of a plate's radius up to which a cell's edge is so short that its centre tells of it.
+constexpr double SmallEdge = 0.5;
+/// Share of that difference by which the logarithm of what it makes of the light may be off where
+/// cells of a block tell of others.
+constexpr double ToldShare = 0.3;
 /// Optical depth over half of a strip's width that counts at most: beyond, light ends within it.
 constexpr double MostHalf = 2.0;
 
@@ -227,18 +233,78 @@ bool DirectLight::UnevenIn(
     });
 }
 
+std::optional<DirectLight::Corrections> DirectLight::TellUneven(
+  const Medium::Block& block, const std::vector<std::optional<BoxLight>>& asked) const
+{
+  const int bands = this->Scene_.Bands();
+  // Logarithms of the correction of a cell.
+  const auto look = [&](const std::array<int, 3>& place) -> std::optional<Spectrum>
+  {
+    const std::optional<BoxLight>& light = asked[block.Number(place)];
+    if (!light || this->KnowsUneven(*light))
+    {
+      return std::nullopt;
+    }
+    const Spectrum fluence = this->CellFluence(*light, true);
+    const Spectrum corrected = this->UnevenFluence(*light, fluence);
+    Spectrum logarithms{};
+    for (int band = 0; band < bands; ++band)
+    {
+      logarithms[band] = std::log(corrected[band] / fluence[band]);
+    }
+    return logarithms;
+  };
+  Corrections corners{};
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const std::optional<Spectrum> own = look(CornerOf(block, corner));
+    if (!own)
+    {
+      return std::nullopt;
+    }
+    for (int band = 0; band < bands; ++band)
+    {
+      corners[band][corner] = (*own)[band];
+    }
+  }
+  // Large blocks along four diagonals, small ones along two.
+  const int longest = block.LongestEdge();
+  const int diagonals = std::min(4, longest / 2);
+  for (int i = 0; i < diagonals * longest; ++i)
+  {
+    const std::array<int, 3> place = PlaceOnDiagonal(block, i / diagonals, i % diagonals);
+    const std::optional<Spectrum> own = look(place);
+    for (int band = 0; band < bands; ++band)
+    {
+      // None where there is no light to correct.
+      if (!own || !(std::abs(BetweenCorners(corners[band], block, place) - (*own)[band]) <=
+                    ToldShare * this->Bend_))
+      {
+        return std::nullopt;
+      }
+    }
+  }
+  return corners;
+}
+
+bool DirectLight::KnowsUneven(const BoxLight& light) const
+{
+  const Medium& smoke = this->Scene_.Smoke();
+  const Vec3 size = smoke.CellSize(light.Cell);
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  // In dense cells the mean is of what comes in through their faces, not of their centres; where
+  // places in a cell have ways of their own, those are corrected already.
+  return !light.Far || this->BoxDepth(light.Cell, size) >= FlatDepth ||
+         (this->BehindBorder(light) && LargestEdge(size) * root.Law.Sharpness() >
+                                         FlatRatio * root.Distance(smoke.CellCentre(light.Cell)));
+}
+
 Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluence) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const Vec3 centre = smoke.CellCentre(light.Cell);
   const Vec3 size = smoke.CellSize(light.Cell);
-  // In dense cells the mean is of what comes in through their faces, not of their centres; where
-  // places in a cell have ways of their own, those are corrected already.
-  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
-  const bool own =
-    !light.Far || (this->BehindBorder(light) &&
-                    LargestEdge(size) * root.Law.Sharpness() > FlatRatio * root.Distance(centre));
-  if (own || !IsLit(fluence) || this->BoxDepth(light.Cell, size) >= FlatDepth)
+  if (!IsLit(fluence) || this->KnowsUneven(light))
   {
     return fluence;
   }
@@ -248,7 +314,8 @@ Spectrum DirectLight::UnevenFluence(const BoxLight& light, const Spectrum& fluen
     return fluence;
   }
   Spectrum mean{};
-  if (this->Smooth(*ways) || this->Scattered(*ways))
+  const LightGroup& root = this->Scene_.Lights().Root(light.Index);
+  if (this->Smooth(*ways) || this->Scattered(*ways) || LargestEdge(size) <= SmallEdge * root.Radius)
   {
     mean = this->Unevenness(light.Index, centre, *ways);
     std::transform(mean.begin(), mean.end(), fluence.begin(), mean.begin(), std::multiplies<>());

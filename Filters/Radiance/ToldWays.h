@@ -45,7 +45,6 @@ public:
   std::size_t Told() const { return this->Told_; }
 
 private:
-  std::array<int, 3> Corner(int index) const;
   double Walk(const std::array<int, 3>& place);
   /// Optical depth over a distance [m].
   double Depth(double extinction, double distance) const;

@@ -1,5 +1,7 @@
 // Light of a far sign that smoke dims unevenly: through the border of a layer.
 #include "DirectLight.h"
+#include "LightField.h"
+#include "RisingProgress.h"
 #include "Scene.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
@@ -93,6 +95,63 @@ TEST(UnevenSmoke, CellMeans)
     // Two places stand for the cell.
     EXPECT_NEAR(solved.Fluence(box.Centre()).Mean / mean, 1.0, 0.015) << point.x << ' ' << point.z;
   }
+}
+
+/// The end of the corridor on cells far smaller than its sign, with the smoke of a coarser grid
+/// that is like noise below the layer.
+SceneDescription FineCorridor()
+{
+  SceneDescription scene = scenes::LayeredCorridor(1.98, 0.0, 0.0);
+  const Vec3 lower(18.0, 0.0, 0.0);
+  const Vec3 upper(30.0, 2.4, 2.7);
+  const SmokeGrid coarse = scenes::NoisySmoke(lower, upper, {30, 6, 9}, 0.05, 0.2, 1);
+  SmokeGrid fine = scenes::UniformSmoke(lower, upper, {120, 24, 27}, 1.0);
+  for (int number = 0; number < 120 * 24 * 20; ++number)
+  {
+    const int i = number % 120;
+    const int j = number / 120 % 24;
+    const int k = number / (120 * 24);
+    fine.Extinction[number] = coarse.Extinction[i / 4 + 30 * (j / 4 + 6 * (k / 3))];
+  }
+  scene.Grids = {fine};
+  return scene;
+}
+
+// Cells at the corners of a block tell of others how unevenly smoke dims the sign, and the centre
+// of a fine cell tells of all of it: against all cells by themselves, and, where the two differ
+// most, against a sum over places of the sign (so are both right to 3 % at worst).
+TEST(UnevenSmoke, FineCellsTellOfOthers)
+{
+  const Solved told(FineCorridor(), 0.01);
+  LightFieldOptions options;
+  options.Skips = false;
+  RisingProgress progress;
+  const LightField alone = SolveLightField(*told.TheScene, options, progress);
+  const double brightest =
+    *std::max_element(alone.DirectFluence.begin(), alone.DirectFluence.end());
+  double squares = 0.0;
+  std::size_t count = 0;
+  std::size_t changed = 0;
+  for (std::size_t cell = 0; cell < alone.Cells; ++cell)
+  {
+    if (!(alone.DirectFluence[cell] > 1e-6 * brightest))
+    {
+      continue;
+    }
+    const double change = told.Field->DirectFluence[cell] / alone.DirectFluence[cell] - 1.0;
+    squares += change * change;
+    ++count;
+    changed += std::abs(change) > 1e-4 ? 1 : 0;
+    if (std::abs(change) > 0.02)
+    {
+      const Vec3 centre = told.TheScene->Smoke().CellCentre(static_cast<std::int64_t>(cell));
+      const double summed = Summed(*told.TheScene, centre);
+      EXPECT_NEAR(told.Field->DirectFluence[cell] / summed, 1.0, 0.03)
+        << centre.x << ' ' << centre.y << ' ' << centre.z;
+    }
+  }
+  EXPECT_GT(changed, 1000U);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 0.002);
 }
 
 } // namespace
