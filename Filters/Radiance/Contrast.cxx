@@ -210,13 +210,16 @@ void SignLook::FillFactors()
 void SignLook::MakeVeils()
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
-  // The veil behind rough smoke is as rough, which few rays do not tell.
+  // The veil behind rough smoke is as rough, which few rays do not tell. Before a plate without a
+  // pattern its contrast is that of the veil, which falls off right before the plate's rim.
   const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance);
   const bool uneven =
     this->Fine_ || this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) > rough;
+  const bool plain = this->Sight_.Across().Count() * this->Sight_.Up().Count() == 1;
   for (int band = 0; band < this->Bands_; ++band)
   {
-    if (this->Sight_.PartlyHidden() || this->Glows_ || (uneven && places.size() <= MostRays))
+    if (this->Sight_.PartlyHidden() || this->Glows_ || plain ||
+        (uneven && places.size() <= MostRays))
     {
       this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places));
     }

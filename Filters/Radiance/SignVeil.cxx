@@ -73,14 +73,13 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
     : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
 {
   // The pattern blurs over a distance of about its period; aslant, rays are as close for longer.
-  const bool pattern = columns.Count() * rows.Count() > 1;
   const double height =
     2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
             rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
   const auto reachOf = [&](const Vec3& direction)
   {
     const double slant = std::abs(glm::dot(direction, sign.Normal));
-    return pattern ? height / std::max(LeastSlant, slant) : height;
+    return height / std::max(LeastSlant, slant);
   };
   for (int j = 0; j < 3; ++j)
   {

@@ -90,7 +90,8 @@ private:
 };
 
 /// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
-/// what hides it would tell of smoke that is not seen, and behind rough smoke.
+/// what hides it would tell of smoke that is not seen, behind rough smoke, and before a plate
+/// without a pattern.
 class ShownVeil : public SignVeil
 {
 public:
