@@ -22,6 +22,9 @@ namespace
 /// would bring less noise than is asked for.
 constexpr double CoarseTolerance = 0.03;
 constexpr double FewestShare = 0.25;
+/// So they do where there are more than these, since millions of cells each are to be crossed: rays
+/// through many of them see the light of many lines.
+constexpr double PlentyOfLines = 40000.0;
 /// Share of a sweep's lines that a thin one has at least, and how many it has then.
 constexpr double ThinShare = 0.25;
 constexpr double FewestThinLines = 128.0;
@@ -51,7 +54,9 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   const bool often = ScattersOften(scene, band);
   if (!often)
   {
-    this->Lines_ = this->Lines_.Thinned(std::clamp(CoarseTolerance / tolerance, FewestShare, 1.0));
+    const double plenty = PlentyOfLines / static_cast<double>(this->Lines());
+    this->Lines_ = this->Lines_.Thinned(
+      std::clamp(std::min(CoarseTolerance / tolerance, plenty), FewestShare, 1.0));
   }
   const Medium& smoke = scene.Smoke();
   const std::size_t cells = smoke.Cells();
