@@ -34,8 +34,8 @@ constexpr double PairedSpan = 3.0;
 constexpr double LittleAside = 0.2;
 /// Share of a plate's radius up to which a cell's edge is so short that its centre tells of it.
 constexpr double SmallEdge = 0.5;
-/// Share of that difference by which the logarithm of what it makes of the light may be off where
-/// cells of a block tell of others.
+/// Share of EvenBend to MostBend by which the logarithm of what uneven smoke makes of the light may
+/// be off where cells of a block tell of others.
 constexpr double ToldShare = 0.3;
 /// Optical depth over half of a strip's width that counts at most: beyond, light ends within it.
 constexpr double MostHalf = 2.0;
