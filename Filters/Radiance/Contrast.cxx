@@ -193,12 +193,14 @@ void SignLook::FillFactors()
       unknown.push_back({std::min(MostChange, this->View_.TheScene().LargestScale() * error)});
     }
     std::vector<SeenBlock> zones;
+    zones.reserve(part.Zones.size());
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
       zones.push_back(this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i]));
     }
     this->DepthChanges_.push_back(std::move(changes));
     std::vector<SeenBlock>& blocks = this->Blocks_.emplace_back();
+    blocks.reserve(part.Densities.size());
     for (std::size_t i = 0; i < part.Densities.size(); ++i)
     {
       blocks.push_back(part.Densities[i] > 0.0 ? zones[part.ZoneOf[i]] : SeenBlock{});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 namespace smokevis
 {
@@ -12,6 +14,41 @@ namespace
 
 /// Triangles near to a shaft that are looked at: where there are more, lines cost less.
 constexpr int MostLooks = 512;
+
+/// Balls that hold a shaft, at most.
+constexpr double MostBalls = 64.0;
+
+struct Ball
+{
+  Vec3 Centre;
+  double Radius;
+};
+
+/// Balls in a row that together hold all of a shaft, none much wider than that: one around a long
+/// shaft would hold much that is nowhere near.
+std::vector<Ball> BallsAlong(const Shaft& shaft)
+{
+  Box plate = Box::Nothing();
+  for (const Vec3& corner : shaft.Plate)
+  {
+    plate.Add({corner, corner});
+  }
+  const Vec3 start = shaft.Before.Centre();
+  const Vec3 along = plate.Centre() - start;
+  const double length = glm::length(along);
+  // From the one to the other a shaft gets evenly wider or narrower.
+  const double first = 0.5 * glm::length(shaft.Before.Size());
+  const double last = 0.5 * glm::length(plate.Size());
+  const double count = std::clamp(std::ceil(0.5 * length / std::max(first, last)), 1.0, MostBalls);
+  std::vector<Ball> balls;
+  for (double i = 0.0; i < count; ++i)
+  {
+    const double widest =
+      std::max(glm::mix(first, last, i / count), glm::mix(first, last, (i + 1.0) / count));
+    balls.push_back({start + (i + 0.5) / count * along, widest + 0.5 * length / count});
+  }
+  return balls;
+}
 
 /// A shaft's convex hull.
 struct Hull
@@ -73,14 +110,15 @@ bool Geometry::Free(const Shaft& shaft) const
   {
     return false;
   }
-  const Vec3 centre = hull.Bounds.Centre();
-  const double radius = 0.5 * glm::length(hull.Bounds.Size()) + this->Tolerance_;
+  const std::vector<Ball> balls = BallsAlong(shaft);
   for (const TriangleTree* tree : {&this->Surfaces_, &this->Emitters_})
   {
     int looks = 0;
     const auto parted = [&](const Triangle& triangle)
     { return ++looks <= MostLooks && hull.PartedFrom(triangle, this->Tolerance_); };
-    if (!tree->AllNear(centre, radius, parted))
+    if (!std::all_of(balls.begin(), balls.end(),
+          [&](const Ball& ball)
+          { return tree->AllNear(ball.Centre, ball.Radius + this->Tolerance_, parted); }))
     {
       return false;
     }

@@ -72,7 +72,7 @@ public:
 private:
   struct Axis
   {
-    int Step = 0;
+    std::ptrdiff_t Step = 0;
     /// Planes until the grid ends.
     int Left = 0;
     const double* Plane = nullptr;
@@ -93,6 +93,22 @@ private:
       this->Left -= planes;
       this->Plane += planes * this->Step;
       this->Next = this->Distance(0);
+    }
+    /// Distance at which the grid ends along this axis.
+    double Leaves() const { return this->Step == 0 ? Infinity : this->Distance(this->Left); }
+    /// Crosses the next plane, without counting those left.
+    void Cross(std::int64_t& cell)
+    {
+      cell += this->Stride;
+      this->Plane += this->Step;
+      this->Next = this->Distance(0);
+    }
+    /// Goes where a copy has crossed to.
+    void MoveTo(const Axis& copy)
+    {
+      this->Left -= static_cast<int>(std::abs(copy.Plane - this->Plane));
+      this->Plane = copy.Plane;
+      this->Next = copy.Next;
     }
   };
 
@@ -168,12 +184,14 @@ template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit& visi
   Axis x = this->Axes_[0];
   Axis y = this->Axes_[1];
   Axis z = this->Axes_[2];
+  // Only rounding leads out before the end: the rest belongs to the last cell.
+  const double leaves = std::min({x.Leaves(), y.Leaves(), z.Leaves()});
+  const double limit = std::min(distance, leaves);
   double at = this->At_;
   std::int64_t cell = this->Cell_;
-  bool whole = true;
   const auto cross = [&](Axis& axis)
   {
-    if (axis.Next >= distance)
+    if (axis.Next >= limit)
     {
       return false;
     }
@@ -182,13 +200,7 @@ template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit& visi
       kept.Own(cell, at, axis.Next);
       at = axis.Next;
     }
-    // Only rounding leads out before the end: the rest belongs to the last cell.
-    if (axis.Left == 0)
-    {
-      whole = false;
-      return false;
-    }
-    axis.Advance(1, cell);
+    axis.Cross(cell);
     return true;
   };
   bool inside = true;
@@ -197,10 +209,12 @@ template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit& visi
     inside = x.Next < y.Next ? (x.Next < z.Next ? cross(x) : cross(z))
                              : (y.Next < z.Next ? cross(y) : cross(z));
   }
-  this->Axes_ = {x, y, z};
+  this->Axes_[0].MoveTo(x);
+  this->Axes_[1].MoveTo(y);
+  this->Axes_[2].MoveTo(z);
   this->At_ = at;
   this->Cell_ = cell;
-  return whole;
+  return leaves >= distance;
 }
 
 bool Medium::GridRay::Clip()

@@ -80,6 +80,18 @@ bool Sees(const View& view, const Sign& sign, const Vec3& eye, const Vec3& point
 }
 
 //--------------------------------------------------------------------------------------------------
+bool NothingBefore(const View& view, const Sign& sign, const Vec3& eye, const Facet& facet)
+{
+  const Scene& scene = view.TheScene();
+  const auto corner = [&](double u, double v) {
+    return OnFacet(scene.Lights(), sign, facet, {u, v});
+  };
+  return scene.Shapes().Free(
+    {{corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)}, facet.Normal,
+      {eye, eye}});
+}
+
+//--------------------------------------------------------------------------------------------------
 PlateLook LookAt(const View& view, const Sign& sign, const Vec3& eye, const Facet& facet)
 {
   const EmitterSet& lights = view.TheScene().Lights();

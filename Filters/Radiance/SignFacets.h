@@ -30,6 +30,9 @@ Vec3 OnFacet(
 /// Whether the straight way from the eye ends at a point on the front of a sign.
 bool Sees(const View& view, const Sign& sign, const Vec3& eye, const Vec3& point);
 
+/// Whether nothing can lie between the eye and any place of a facet, which it then sees whole.
+bool NothingBefore(const View& view, const Sign& sign, const Vec3& eye, const Facet& facet);
+
 /// A look from the eye at places of a facet.
 /// @param facet must, as all but the eye, outlive it
 PlateLook LookAt(const View& view, const Sign& sign, const Vec3& eye, const Facet& facet);

@@ -98,7 +98,10 @@ SignSight::SignSight(
 {
   const std::vector<Facet> facets = FacetsOf(this->Lights_, sign, eye);
   const PlateBorders borders = this->Borders(blocks);
-  this->AddWhole(facets, borders);
+  std::vector<bool> clear;
+  std::transform(facets.begin(), facets.end(), std::back_inserter(clear),
+    [&](const Facet& facet) { return NothingBefore(view, sign, eye, facet); });
+  this->AddWhole(facets, clear, borders);
   if (!this->Resolved() || facets.size() > MostCutFacets)
   {
     return;
@@ -106,10 +109,10 @@ SignSight::SignSight(
   std::vector<PlateLook> looks;
   std::vector<std::vector<glm::dvec2>> odd;
   bool hidden = this->PartlyHidden() && this->Seen_ > 0.0;
-  for (const Facet& facet : facets)
+  for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    looks.push_back(LookAt(view, sign, eye, facet));
-    odd.push_back(OddPlaces(looks.back()));
+    looks.push_back(LookAt(view, sign, eye, facets[i]));
+    odd.push_back(clear[i] ? std::vector<glm::dvec2>() : OddPlaces(looks.back()));
     hidden = hidden || !odd.back().empty();
   }
   if (hidden)
@@ -297,17 +300,19 @@ PlatePattern SignSight::PatternOf(
   return {cells, across, up};
 }
 
-void SignSight::AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders)
+void SignSight::AddWhole(
+  const std::vector<Facet>& facets, const std::vector<bool>& clear, const PlateBorders& borders)
 {
   const PatternAxis across(borders[0], this->Pixels_[0]);
   const PatternAxis up(borders[1], this->Pixels_[1]);
-  for (const Facet& facet : facets)
+  for (std::size_t i = 0; i < facets.size(); ++i)
   {
+    const Facet& facet = facets[i];
     PlatePattern pattern = this->PatternOf(facet, across, up);
     std::vector<double> shares;
     for (const PatternBlock& block : pattern.Blocks())
     {
-      shares.push_back(this->VisibleShare(facet, block));
+      shares.push_back(clear[i] ? 1.0 : this->VisibleShare(facet, block));
     }
     std::vector<std::size_t> zoneOf(pattern.Blocks().size());
     std::iota(zoneOf.begin(), zoneOf.end(), std::size_t{0});

@@ -75,7 +75,9 @@ private:
   PlatePattern PatternOf(
     const Facet& facet, const PatternAxis& across, const PatternAxis& up) const;
   /// Takes in facets in whole blocks, a zone each.
-  void AddWhole(const std::vector<Facet>& facets, const PlateBorders& borders);
+  /// @param clear whether nothing lies before each, so that it need not be looked at
+  void AddWhole(
+    const std::vector<Facet>& facets, const std::vector<bool>& clear, const PlateBorders& borders);
   /// Takes them in where something hides a part; blocks that were one stay one zone.
   void AddCut(const std::vector<Facet>& facets, const std::vector<PlateLook>& looks,
     const std::vector<std::vector<glm::dvec2>>& odd, const PlateBorders& borders);

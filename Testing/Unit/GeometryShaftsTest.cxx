@@ -2,6 +2,7 @@
 #include "Geometry.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -132,4 +133,52 @@ TEST(GeometryShafts, AllLinesOfFreeOnesAreClear)
   }
   EXPECT_GT(free, Scenes / 3);
   EXPECT_LT(free, Scenes);
+}
+
+/// From a place far off to a sign in a hall whose floor and ceiling are many triangles, of which
+/// few are near to the lines.
+TEST(GeometryShafts, LongOnesAreFreeBetweenFinelyDividedFloors)
+{
+  SurfaceMesh mesh;
+  for (int i = 0; i < 80; ++i)
+  {
+    for (int j = 0; j < 40; ++j)
+    {
+      const double x = 0.5 * i;
+      const double y = 0.5 * j - 10.0;
+      AddTriangle(mesh, {Vec3(x, y, 0.0), Vec3(x + 0.5, y, 0.0), Vec3(x, y + 0.5, 0.0)});
+      AddTriangle(mesh, {Vec3(x, y, 5.0), Vec3(x + 0.5, y, 5.0), Vec3(x, y + 0.5, 5.0)});
+    }
+  }
+  const Vec3 eye(1.0, -8.0, 1.7);
+  const Shaft shaft{
+    {Vec3(39.0, 0.0, 2.0), Vec3(39.0, 1.0, 2.0), Vec3(39.0, 1.0, 2.5), Vec3(39.0, 0.0, 2.5)},
+    {-1.0, 0.0, 0.0}, {eye, eye}};
+  EXPECT_TRUE(Geometry(mesh, {}).Free(shaft));
+}
+
+/// Specks anywhere between the corners of shafts of all lengths, from points and from boxes.
+TEST(GeometryShafts, ASpeckAnywhereInOneIsMet)
+{
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto place = [&] { return Vec3(share(random), share(random), share(random)); };
+  for (int scene = 0; scene < 2000; ++scene)
+  {
+    const Vec3 along = glm::normalize(place() - 0.5);
+    const Vec3 normal = glm::normalize(glm::cross(along, place() - 0.5));
+    const Vec3 up = 0.3 * glm::cross(normal, along);
+    const Vec3 corner = place();
+    Shaft shaft{{corner, corner + along, corner + along + up, corner + up}, normal, {}};
+    const double distance = std::exp(6.0 * share(random));
+    shaft.Before.Lower = corner + distance * (normal + share(random) * along) + 1.0;
+    shaft.Before.Upper =
+      shaft.Before.Lower + (scene % 2 == 0 ? 0.0 : 3.0 * share(random)) * place();
+    const Vec3 from = shaft.Before.Lower + place() * shaft.Before.Size();
+    const Vec3 to = corner + share(random) * along + share(random) * up;
+    const Vec3 speck = glm::mix(to, from, 0.01 + 0.98 * share(random));
+    SurfaceMesh mesh;
+    AddTriangle(mesh, {speck, speck + 1e-3 * (place() - 0.5), speck + 1e-3 * (place() - 0.5)});
+    EXPECT_FALSE(Geometry(mesh, {}).Free(shaft)) << scene << ", " << distance << " m";
+  }
 }
