@@ -10,16 +10,16 @@ namespace
 
 using namespace smokevis;
 
-constexpr int Across = 12;
-constexpr int Along = 10;
+constexpr int Columns = 12;
+constexpr int Rows = 10;
 
 std::vector<SeenPlace> Places()
 {
   std::vector<SeenPlace> places;
-  for (int i = 0; i < Across * Along; ++i)
+  for (int i = 0; i < Columns * Rows; ++i)
   {
     SeenPlace& place = places.emplace_back();
-    place.OnPlate = {(i % Across + 0.5) / Across, (i / Across + 0.5) / Along};
+    place.OnPlate = {(i % Columns + 0.5) / Columns, (i / Columns + 0.5) / Rows};
     place.Weight = 1e-4 * (1.0 + 0.1 * place.OnPlate.x);
   }
   return places;
@@ -48,9 +48,9 @@ TEST(Roughness, OfAChequerboard)
 {
   const std::vector<SeenPlace> places = Places();
   std::vector<double> values = Quadratic(places);
-  for (int i = 0; i < Across * Along; ++i)
+  for (int i = 0; i < Columns * Rows; ++i)
   {
-    values[i] += (i % Across + i / Across) % 2 == 0 ? 0.1 : -0.1;
+    values[i] += (i % Columns + i / Columns) % 2 == 0 ? 0.1 : -0.1;
   }
   EXPECT_NEAR(Roughness(places, values), 0.1, 0.002);
 }
