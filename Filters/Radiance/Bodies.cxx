@@ -103,7 +103,8 @@ std::vector<std::uint32_t> Bodies::Find() const
   return bodies;
 }
 
-bool Bodies::Enclose(const Vec3& place, const Vec3& normal) const
+bool Bodies::Enclose(
+  const Vec3& place, const Vec3& normal, const std::optional<std::uint32_t>& inside) const
 {
   const double reach = 4.0 * this->Shapes_.Tolerance();
   std::vector<Hit> standing;
@@ -112,7 +113,8 @@ bool Bodies::Enclose(const Vec3& place, const Vec3& normal) const
     [&](const Hit& hit)
     {
       return glm::dot(this->Shapes_.Normal(hit), normal) > -SamePlane ||
-             this->OfTriangles()[hit.Triangle] == Geometry::NoBody;
+             this->OfTriangles()[hit.Triangle] == Geometry::NoBody ||
+             (inside && this->OfTriangles()[hit.Triangle] == this->OfTriangles()[*inside]);
     });
   if (standing.empty())
   {

@@ -4,6 +4,7 @@
 #include "Types.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <tbb/collaborative_call_once.h>
@@ -29,7 +30,10 @@ public:
   /// closed solid that stands there with a face of its own: the back of a triangle faces that way,
   /// and all rays leave the body that it belongs to where they meet that first.
   /// @param normal unit vector
-  bool Enclose(const Vec3& place, const Vec3& normal) const;
+  /// @param inside a surface triangle there whose back faces that way itself: the body that it
+  /// belongs to does not count, since it does not stand on itself
+  bool Enclose(const Vec3& place, const Vec3& normal,
+    const std::optional<std::uint32_t>& inside = std::nullopt) const;
   /// The body of each of the geometry's surface triangles, or Geometry::NoBody.
   const std::vector<std::uint32_t>& OfTriangles() const;
 

@@ -3,6 +3,7 @@
 #include "DiffusionBlocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace smokevis
@@ -35,6 +36,11 @@ void Completion::CompleteLatest(int sweeps, std::vector<BatchState>& batches)
 {
   this->Sweeps_ += sweeps;
   DiffusionBlocks::Lack lack = this->Blocks_.LackOf(this->Sweeps_, batches);
+  if (!std::isfinite(lack.Size) || !std::isfinite(lack.Error))
+  {
+    this->Step_ = 0.0;
+    return;
+  }
   this->MayLack_ = std::max(lack.Error, lack.IsClear() ? LeftShare * lack.Size : 0.0);
   if (!lack.IsClear())
   {

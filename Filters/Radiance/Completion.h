@@ -27,8 +27,8 @@ public:
 
   /// What the latest light may still lack, over the mean fluence of the smoke.
   double MayLack() const { return this->MayLack_; }
-  /// Whether what is completed comes back with the other sign again and again: diffusion does not
-  /// describe this light, and completes it ever further away.
+  /// Whether what is completed comes back with the other sign again and again, or without bounds:
+  /// diffusion does not describe this light, and completes it ever further away.
   bool Diverges() const { return this->Step_ < SmallestStep; }
   /// Share of what light lacks that it still lacks a sweep later. In uniform smoke it would be 0.23
   /// (Adams and Larsen 2002).

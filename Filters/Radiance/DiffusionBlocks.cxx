@@ -34,6 +34,9 @@ constexpr double SameSize = 1e-6;
 /// iterations do.
 constexpr double SolverTolerance = 1e-3;
 constexpr int MostIterations = 2000;
+/// Share of what blocks that pass light to each other take up and pass on that is lost where any
+/// is.
+constexpr double SealedShare = 1e-10;
 
 } // namespace
 
@@ -216,9 +219,15 @@ void DiffusionBlocks::FindSides(
 void DiffusionBlocks::FormOperator(
   double albedo, const std::vector<Sums>& blocks, const Areas& between, const Outside& outside)
 {
+  const auto count = static_cast<std::size_t>(outside.End);
   std::vector<Eigen::Triplet<double>> entries;
-  const auto pass = [&entries](std::int32_t one, std::int32_t other, double passes)
+  boost::disjoint_sets_with_storage<> joined(count);
+  std::vector<double> passed(count, 0.0);
+  const auto pass = [&](std::int32_t one, std::int32_t other, double passes)
   {
+    joined.union_set(one, other);
+    passed[one] += passes;
+    passed[other] += passes;
     entries.emplace_back(one, one, passes);
     entries.emplace_back(one, other, -passes);
     entries.emplace_back(other, other, passes);
@@ -231,7 +240,7 @@ void DiffusionBlocks::FormOperator(
                          glm::distance(blocks[one].Centre(), blocks[other].Centre());
     pass(one, other, area / DiffusionResistance(depth, 0.0));
   }
-  this->Escape_.assign(static_cast<std::size_t>(outside.End), 0.0);
+  this->Escape_.assign(count, 0.0);
   const auto& faces = outside.Regions.Faces();
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
@@ -274,6 +283,7 @@ void DiffusionBlocks::FormOperator(
         0.25 * outside.Regions.BoundingArea(region) * share / (1.0 - share);
     }
   }
+  std::vector<double> losses;
   for (std::int32_t i = 0; i < outside.End; ++i)
   {
     // What absorbs more than even light brings to all around a block belongs to others, too.
@@ -282,10 +292,25 @@ void DiffusionBlocks::FormOperator(
     const double most = inSmoke ? std::min(absorbed, 0.25 * BoxSurface(blocks[i].Size)) : absorbed;
     const double capture = inSmoke ? blocks[i].Capture : 0.0;
     const double lost = (1.0 - albedo) * capture + this->Escape_[i] + most;
-    entries.emplace_back(i, i, lost);
+    losses.push_back(lost);
     this->Loss_ += lost;
     this->Capture_.push_back(capture);
     this->Escape_[i] += most - absorbed;
+  }
+  // What lies within white walls may keep all of its light for itself.
+  std::vector<double> lostTogether(count, 0.0);
+  std::vector<double> heldTogether(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    lostTogether[joined.find_set(i)] += losses[i];
+    heldTogether[joined.find_set(i)] += passed[i] + this->Capture_[i];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t together = joined.find_set(i);
+    this->Sealed_.push_back(lostTogether[together] <= SealedShare * heldTogether[together]);
+    const auto place = static_cast<std::int32_t>(i);
+    entries.emplace_back(place, place, this->Sealed_[i] ? 1.0 : losses[i]);
   }
   this->Operator_.resize(outside.End, outside.End);
   this->Operator_.setFromTriplets(entries.begin(), entries.end());
@@ -293,8 +318,12 @@ void DiffusionBlocks::FormOperator(
 
 void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
 {
-  const Eigen::Map<const Eigen::VectorXd> residual(
+  Eigen::VectorXd residual = Eigen::Map<const Eigen::VectorXd>(
     batch.Residual.data(), static_cast<Eigen::Index>(this->Count()));
+  for (Eigen::Index block = 0; block < residual.size(); ++block)
+  {
+    residual[block] = this->Sealed_[block] ? 0.0 : residual[block];
+  }
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(SolverTolerance);
   solver.setMaxIterations(MostIterations);

@@ -92,6 +92,9 @@ private:
   std::vector<double> Escape_;
   /// Power that is absorbed or leaves the scene, over a fluence that is the same everywhere [m2].
   double Loss_ = 0.0;
+  /// Whether the light of each block can get nowhere where any is lost. No fluence balances what
+  /// comes in there, so that it is not completed.
+  std::vector<bool> Sealed_;
   /// Power that leaves the blocks or is absorbed in them, by the fluence [m2].
   Eigen::SparseMatrix<double> Operator_;
 };

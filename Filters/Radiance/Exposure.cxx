@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -106,7 +107,9 @@ std::array<Shares, 2> FindShares(const Geometry& shapes, const Bodies& bodies, c
     }
     for (int side = 0; side < 2; ++side)
     {
-      const bool dark = several && bodies.Enclose(point, side == 0 ? normal : -normal);
+      const bool dark =
+        several && bodies.Enclose(point, side == 0 ? normal : -normal,
+                     side == 1 && !piece.Emitter ? std::optional(piece.Triangle) : std::nullopt);
       enclosed[side] += dark ? 1 : 0;
       exposed[side] += met[side] && !dark ? 1 : 0;
     }

@@ -177,7 +177,7 @@ double VeilProbes::WholeError(const std::vector<BatchState>& batches) const
     squares += mean * mean;
     errors += error * error;
   }
-  return squares > 0.0 ? std::sqrt(errors / squares) : 0.0;
+  return squares == 0.0 ? 0.0 : std::sqrt(errors / squares);
 }
 
 double VeilProbes::LargestShare(
