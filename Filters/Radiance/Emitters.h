@@ -54,6 +54,8 @@ struct Sign
   std::array<Vec3, 4> Corners{};
   /// Radius around Centre that holds the plate [m].
   double Radius = 0.0;
+  /// Whether no other emitter lies so close to it that their plates might touch or overlap.
+  bool Alone = false;
 };
 
 /// A part of a light: cells with one normal and law that, from afar, act as one point.

@@ -86,9 +86,10 @@ bool NothingBefore(const View& view, const Sign& sign, const Vec3& eye, const Fa
   const auto corner = [&](double u, double v) {
     return OnFacet(scene.Lights(), sign, facet, {u, v});
   };
-  return scene.Shapes().Free(
-    {{corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)}, facet.Normal,
-      {eye, eye}});
+  // What touches a plate leaves it free, which another sign does not.
+  return sign.Alone && scene.Shapes().Free(
+                         {{corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)},
+                           facet.Normal, {eye, eye}});
 }
 
 //--------------------------------------------------------------------------------------------------

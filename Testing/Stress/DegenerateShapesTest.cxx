@@ -210,10 +210,14 @@ TEST(DegenerateShapes, TwoSignsInOnePlace)
   scene.Emitters.insert(scene.Emitters.end(), again.begin(), again.end());
   const Solved solved(scene);
   stress::ExpectSaneField(solved);
+  double shown = 0.0;
   for (std::size_t sign = 0; sign < 2; ++sign)
   {
-    stress::ExpectSaneSign(MeasureSign(*solved.TheView, sign, RoomEye, Observer{0.0}));
+    const SignMeasurement measured = MeasureSign(*solved.TheView, sign, RoomEye, Observer{0.0});
+    stress::ExpectSaneSign(measured);
+    shown += measured.VisibleFraction;
   }
+  report::Absolute("share of both that is seen", 1.0, shown, 1e-6);
 }
 
 // The room's smoke as meshes that touch, leave a hair and overlap.

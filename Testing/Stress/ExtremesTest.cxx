@@ -310,6 +310,52 @@ TEST(Extremes, FinelyTriangulatedWhiteWalls)
   }
 }
 
+// A white column with a sign flush on it, in white smoke under a sky of 1 cd/m2: all that is seen
+// has that luminance, and no more can be anywhere. Within the column hardly any light is lost, or
+// none, whichever way it came in.
+TEST(Extremes, WhiteColumnUnderASky)
+{
+  report::Head("White column in white smoke under a sky");
+  const Vec3 size(4.126, 2.077, 2.673);
+  for (const auto& [reflectance, albedo, densest] :
+    {std::array{0.8, 0.9, 1.54}, {0.95, 0.95, 1.54}, {1.0, 1.0, 5.48}})
+  {
+    SceneDescription scene;
+    scene.Albedo = albedo;
+    scene.Sky = 1.0;
+    scene.Grids = {scenes::NoisySmoke(Vec3(0.0), size, {9, 6, 6}, 0.0, densest, 5)};
+    if (albedo < 1.0)
+    {
+      scene.Grids[0].EmittedLuminance.assign(scene.Grids[0].Extinction.size(), 1.0F);
+    }
+    const Vec3 corner(3.526, 0.335, 0.947);
+    scenes::AddBlock(scene.Surfaces, corner, corner + Vec3(0.3, 1.2, 0.8), 0.25, reflectance);
+    scene.Emitters =
+      scenes::Barcode(corner + Vec3(0.0, 0.6, 0.4), {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 1.0, 0);
+    for (EmitterCell& cell : scene.Emitters)
+    {
+      const bool lit = cell.Luminance[0] > 0.0;
+      cell.Luminance.fill(lit ? 1.0 : 0.4);
+      cell.Reflectance.fill(lit ? 0.0 : 0.6);
+    }
+    const Solved solved(scene, 0.03);
+    double largest = 0.0;
+    for (std::size_t cell = 0; cell < solved.TheScene->Smoke().Cells(); ++cell)
+    {
+      const std::vector<std::int64_t> one = {static_cast<std::int64_t>(cell)};
+      const double fluence = solved.Fluence(one).Mean;
+      largest = std::isfinite(fluence) ? std::max(largest, fluence) : fluence;
+    }
+    const SignMeasurement sign = MeasureSign(*solved.TheView, 0, {0.3, 1.0, 1.0}, Observer{0.0});
+    const std::string name =
+      "reflectance " + std::to_string(reflectance) + ", albedo " + std::to_string(albedo);
+    report::Relative(name + ", sign [cd/m2]", 1.0, sign.MeanLuminance, 0.01);
+    report::Absolute(name + ", contrast", 0.0, sign.Contrast, 0.005);
+    // What single cells know of their light is noise at this tolerance.
+    EXPECT_LT(largest, 1.2 * 4.0 * std::numbers::pi) << name;
+  }
+}
+
 // No light is ever lost: there is no steady state, and the answer is an error that says so.
 TEST(Extremes, NoSteadyState)
 {

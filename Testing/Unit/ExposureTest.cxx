@@ -80,6 +80,25 @@ TEST(Exposure, LinesWithinABoxMeetItsBacks)
   EXPECT_EQ(crossings[1].Arrive.Side, 1);
 }
 
+// A solid does not stand on itself: what a plate touches of it from outside is free within.
+TEST(Exposure, OfASolidsInside)
+{
+  SceneDescription description;
+  scenes::AddBlock(description.Surfaces, BoxLower, BoxUpper, 1.0, 0.5);
+  description.Emitters =
+    scenes::Barcode({-0.5, 0.0, 0.5}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 100.0, 0);
+  const Scene scene(std::move(description));
+  double outside = 0.0;
+  for (std::size_t face = 0; face < scene.SurfacePatches(); ++face)
+  {
+    EXPECT_NEAR(scene.ExposedArea(face, 1), 1.0, 0.01);
+    EXPECT_EQ(scene.EnclosedArea(face, 1), 0.0);
+    outside += scene.ExposedArea(face, 0);
+  }
+  // Less what the plate covers.
+  EXPECT_NEAR(outside, 6.0 - 0.18, 0.01);
+}
+
 // A box without its bottom leaves the floor's own part, dark as it is.
 TEST(Exposure, OfAFloorUnderAHood)
 {
