@@ -15,8 +15,8 @@ constexpr std::size_t MostBlocks = 1024;
 constexpr double Inside = 1e-3;
 /// Places that are looked at all over, and steps from row to row of the raster that they are in:
 /// about the golden section of their number, and prime to it.
-constexpr int Looks = 32;
-constexpr int RowStep = 19;
+constexpr int Looks = 128;
+constexpr int RowStep = 79;
 constexpr std::size_t MostOdd = 6;
 /// Places along each edge of a block that what hides the plate begins in.
 constexpr int PlacesInBlock = 4;
