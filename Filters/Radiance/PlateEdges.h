@@ -23,8 +23,8 @@ enum class PlateSight
 using PlateLook = std::function<PlateSight(const glm::dvec2&)>;
 
 /// Looks at a plate's corners and at places all over it, one in each column and each row of a
-/// raster of 128 x 128, so that no gap or bar along an edge of the plate is missed that is as wide as
-/// one of them. Returns a few of the places that differ from most.
+/// raster of 128 x 128, so that no gap or bar along an edge of the plate is missed that is as wide
+/// as one of them. Returns a few of the places that differ from most.
 std::vector<glm::dvec2> OddPlaces(const PlateLook& look);
 
 /// Halves blocks, again and again, where the plate is seen in the middle of one and hidden in the
