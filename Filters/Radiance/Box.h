@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace smokevis
@@ -39,6 +40,17 @@ struct Box
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return {Vec3(infinity), Vec3(-infinity)};
+  }
+
+  /// The smallest around points.
+  static Box Around(std::span<const Vec3> points)
+  {
+    Box box = Nothing();
+    for (const Vec3& point : points)
+    {
+      box.Add({point, point});
+    }
+    return box;
   }
 
   Vec3 Centre() const { return 0.5 * (this->Lower + this->Upper); }

@@ -38,6 +38,7 @@ void Completion::CompleteLatest(int sweeps, std::vector<BatchState>& batches)
   DiffusionBlocks::Lack lack = this->Blocks_.LackOf(this->Sweeps_, batches);
   if (!std::isfinite(lack.Size) || !std::isfinite(lack.Error))
   {
+    // It went beyond all bounds, and no smaller step brings it back.
     this->Step_ = 0.0;
     return;
   }

@@ -318,12 +318,12 @@ void DiffusionBlocks::FormOperator(
 
 void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
 {
-  Eigen::VectorXd residual = Eigen::Map<const Eigen::VectorXd>(
-    batch.Residual.data(), static_cast<Eigen::Index>(this->Count()));
-  for (Eigen::Index block = 0; block < residual.size(); ++block)
+  for (std::size_t block = 0; block < this->Count(); ++block)
   {
-    residual[block] = this->Sealed_[block] ? 0.0 : residual[block];
+    batch.Residual[block] = this->Sealed_[block] ? 0.0 : batch.Residual[block];
   }
+  const Eigen::Map<const Eigen::VectorXd> residual(
+    batch.Residual.data(), static_cast<Eigen::Index>(this->Count()));
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(SolverTolerance);
   solver.setMaxIterations(MostIterations);

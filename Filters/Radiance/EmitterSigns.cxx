@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <span>
 
 namespace smokevis
 {
@@ -27,16 +26,6 @@ Vec3 FirstEdge(const std::vector<Vec3>& vertices)
   }
   return *std::find_if(edges.begin(), edges.end(),
     [&](const Vec3& edge) { return glm::length(edge) >= LeastShare * longest; });
-}
-
-Box BoundsOf(std::span<const Vec3> points)
-{
-  Box bounds = Box::Nothing();
-  for (const Vec3& point : points)
-  {
-    bounds.Add({point, point});
-  }
-  return bounds;
 }
 
 } // namespace
@@ -91,10 +80,10 @@ void EmitterSet::FindSigns()
   }
   std::vector<Box> bounds;
   std::transform(this->Cells_.begin(), this->Cells_.end(), std::back_inserter(bounds),
-    [](const EmitterCell& cell) { return BoundsOf(cell.Vertices); });
+    [](const EmitterCell& cell) { return Box::Around(cell.Vertices); });
   for (Sign& sign : this->Signs_)
   {
-    Box around = BoundsOf(sign.Corners);
+    Box around = Box::Around(sign.Corners);
     around.Lower -= sign.Radius;
     around.Upper += sign.Radius;
     sign.Alone = true;

@@ -107,6 +107,7 @@ std::array<Shares, 2> FindShares(const Geometry& shapes, const Bodies& bodies, c
     }
     for (int side = 0; side < 2; ++side)
     {
+      // Behind a surface lies the inside of its own body.
       const bool dark =
         several && bodies.Enclose(point, side == 0 ? normal : -normal,
                      side == 1 && !piece.Emitter ? std::optional(piece.Triangle) : std::nullopt);

@@ -28,11 +28,7 @@ struct Ball
 /// shaft would hold much that is nowhere near.
 std::vector<Ball> BallsAlong(const Shaft& shaft)
 {
-  Box plate = Box::Nothing();
-  for (const Vec3& corner : shaft.Plate)
-  {
-    plate.Add({corner, corner});
-  }
+  const Box plate = Box::Around(shaft.Plate);
   const Vec3 start = shaft.Before.Centre();
   const Vec3 along = plate.Centre() - start;
   const double length = glm::length(along);

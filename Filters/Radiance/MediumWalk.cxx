@@ -86,23 +86,21 @@ private:
     {
       return (this->Plane[this->Step * planes] - this->Origin) * this->Inverse;
     }
-    /// Crosses so many planes, no more than are left.
-    void Advance(int planes, std::int64_t& cell)
+    /// Crosses so many planes, without counting those left.
+    void Cross(int planes, std::int64_t& cell)
     {
       cell += planes * this->Stride;
-      this->Left -= planes;
       this->Plane += planes * this->Step;
       this->Next = this->Distance(0);
     }
+    /// Crosses so many planes, no more than are left.
+    void Advance(int planes, std::int64_t& cell)
+    {
+      this->Left -= planes;
+      this->Cross(planes, cell);
+    }
     /// Distance at which the grid ends along this axis.
     double Leaves() const { return this->Step == 0 ? Infinity : this->Distance(this->Left); }
-    /// Crosses the next plane, without counting those left.
-    void Cross(std::int64_t& cell)
-    {
-      cell += this->Stride;
-      this->Plane += this->Step;
-      this->Next = this->Distance(0);
-    }
     /// Goes where a copy has crossed to.
     void MoveTo(const Axis& copy)
     {
@@ -200,7 +198,7 @@ template <class Visit> bool Medium::GridRay::StepTo(double distance, Visit& visi
       kept.Own(cell, at, axis.Next);
       at = axis.Next;
     }
-    axis.Cross(cell);
+    axis.Cross(1, cell);
     return true;
   };
   bool inside = true;

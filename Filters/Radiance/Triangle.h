@@ -39,8 +39,7 @@ inline double ReachOf(const Triangle& corners)
 
 inline Box BoundsOf(const Triangle& corners)
 {
-  return {glm::min(corners[0], glm::min(corners[1], corners[2])),
-    glm::max(corners[0], glm::max(corners[1], corners[2]))};
+  return Box::Around(corners);
 }
 
 } // namespace smokevis

@@ -177,6 +177,7 @@ double VeilProbes::WholeError(const std::vector<BatchState>& batches) const
     squares += mean * mean;
     errors += error * error;
   }
+  // What is no number must not pass for light that is known.
   return squares == 0.0 ? 0.0 : std::sqrt(errors / squares);
 }
 

@@ -141,16 +141,10 @@ double PowerOfSources(const SceneDescription& description, const Scene& made)
 {
   const Medium& smoke = made.Smoke();
   Box all{smoke.Lower(), smoke.Upper()};
-  for (const Vec3& point : description.Surfaces.Points)
-  {
-    all.Add({point, point});
-  }
+  all.Add(Box::Around(description.Surfaces.Points));
   for (const EmitterCell& cell : description.Emitters)
   {
-    for (const Vec3& vertex : cell.Vertices)
-    {
-      all.Add({vertex, vertex});
-    }
+    all.Add(Box::Around(cell.Vertices));
   }
   double power = made.Lights().Flux(0) + std::numbers::pi * made.Sky() * all.Surface();
   for (std::size_t i = 0; i < smoke.Cells(); ++i)
