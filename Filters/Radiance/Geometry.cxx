@@ -46,12 +46,11 @@ void GatherAll(const RTCFilterFunctionNArguments* arguments)
 /// A ray in Embree's units, whose start was moved forward in double precision so that it is exact.
 /// None where it begins or leads beyond what single precision reaches: from there a scene is less
 /// than a point, and Embree would end the program.
-/// @param centre of the scene
-std::optional<RTCRay> MakeRay(const RayPiece& piece, const Vec3& centre)
+std::optional<RTCRay> MakeRay(const RayPiece& piece, const SinglePrecision& units)
 {
-  const Vec3 origin = piece.Origin + piece.Begin * piece.Direction - centre;
+  const Vec3 origin = units.Place(piece.Origin + piece.Begin * piece.Direction);
   const Vec3& direction = piece.Direction;
-  const double length = piece.End - piece.Begin;
+  const double length = units.Length(piece.End - piece.Begin);
   RTCRay ray;
   ray.org_x = static_cast<float>(origin.x);
   ray.org_y = static_cast<float>(origin.y);
@@ -125,8 +124,8 @@ TriangleTree::Device TriangleTree::NewDevice()
 }
 
 TriangleTree::TriangleTree(const Device& device, const SurfaceMesh& mesh, bool emitters,
-  const Vec3& centre, double tolerance)
-    : Triangles_(UsefulTriangles(mesh)), Centre_(centre), Tolerance_(tolerance), Emitters_(emitters)
+  const SinglePrecision& units, double tolerance)
+    : Triangles_(UsefulTriangles(mesh)), Units_(units), Tolerance_(tolerance), Emitters_(emitters)
 {
   if (this->Triangles_.empty())
   {
@@ -146,9 +145,10 @@ TriangleTree::TriangleTree(const Device& device, const SurfaceMesh& mesh, bool e
   }
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
+    const Vec3 place = units.Place(mesh.Points[i]);
     for (int axis = 0; axis < 3; ++axis)
     {
-      vertices[3 * i + axis] = static_cast<float>(mesh.Points[i][axis] - centre[axis]);
+      vertices[3 * i + axis] = static_cast<float>(place[axis]);
     }
   }
   for (std::size_t i = 0; i < this->Triangles_.size(); ++i)
@@ -193,7 +193,7 @@ Hit TriangleTree::MakeHit(const Vec3& origin, const Vec3& direction, double begi
 Hit TriangleTree::Intersect(
   const Vec3& origin, const Vec3& direction, double begin, double end) const
 {
-  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Units_);
   if (this->Empty() || !ray)
   {
     return {};
@@ -204,14 +204,15 @@ Hit TriangleTree::Intersect(
   rtcIntersect1(this->Tree_.get(), &context, &query);
   return query.hit.geomID == RTC_INVALID_GEOMETRY_ID
            ? Hit()
-           : this->MakeHit(origin, direction, begin, end, query.hit.primID, begin + query.ray.tfar);
+           : this->MakeHit(origin, direction, begin, end, query.hit.primID,
+               begin + this->Units_.Metres(query.ray.tfar));
 }
 
 void TriangleTree::IntersectAll(
   const Vec3& origin, const Vec3& direction, double begin, double end, std::vector<Hit>& hits) const
 {
   hits.clear();
-  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  const std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Units_);
   if (this->Empty() || !ray)
   {
     return;
@@ -226,7 +227,8 @@ void TriangleTree::IntersectAll(
   rtcIntersect1(this->Tree_.get(), &gathering.Context, &query);
   for (const auto& [triangle, distance] : met)
   {
-    hits.push_back(this->MakeHit(origin, direction, begin, end, triangle, begin + distance));
+    hits.push_back(this->MakeHit(
+      origin, direction, begin, end, triangle, begin + this->Units_.Metres(distance)));
   }
   std::sort(hits.begin(), hits.end(),
     [](const Hit& a, const Hit& b)
@@ -236,7 +238,7 @@ void TriangleTree::IntersectAll(
 bool TriangleTree::Occluded(
   const Vec3& origin, const Vec3& direction, double begin, double end) const
 {
-  std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Centre_);
+  std::optional<RTCRay> ray = MakeRay({origin, direction, begin, end}, this->Units_);
   if (this->Empty() || !ray)
   {
     return false;
@@ -260,7 +262,7 @@ std::vector<bool> TriangleTree::Clear(
     Packet packet;
     for (std::size_t i = 0; i < count; ++i)
     {
-      if (const auto ray = MakeRay(pieces[first + i], (*trees.begin())->Centre_))
+      if (const auto ray = MakeRay(pieces[first + i], (*trees.begin())->Units_))
       {
         packet.Set(i, *ray);
       }
@@ -307,7 +309,7 @@ bool TriangleTree::AllNear(
     {
       const std::size_t point = asked.Tree.Indices_[3 * std::size_t{arguments->primID} + corner];
       const float* const at = asked.Tree.Vertices_ + 3 * point;
-      corners[corner] = Vec3(at[0], at[1], at[2]) + asked.Tree.Centre_;
+      corners[corner] = asked.Tree.Units_.PlaceOf(Vec3(at[0], at[1], at[2]));
     }
     if (asked.OfAll && asked.Holds(corners))
     {
@@ -318,13 +320,13 @@ bool TriangleTree::AllNear(
     arguments->query->radius = 0.0F;
     return true;
   };
-  const Vec3 centre = place - this->Centre_;
+  const Vec3 centre = this->Units_.Place(place);
   RTCPointQuery query;
   query.x = static_cast<float>(centre.x);
   query.y = static_cast<float>(centre.y);
   query.z = static_cast<float>(centre.z);
   query.time = 0.0F;
-  query.radius = static_cast<float>(radius);
+  query.radius = static_cast<float>(this->Units_.Length(radius));
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(this->Tree_.get(), &query, &context, ask, &question);
@@ -348,13 +350,13 @@ Geometry::Geometry(
   {
     return;
   }
-  const Vec3 centre = 0.5 * (lower + upper);
   const double size = std::max(sceneSize, glm::length(upper - lower));
   this->Tolerance_ = std::max(
     RelativeTolerance * (coreSize > 0.0 ? std::min(coreSize, size) : size), RoundingShare * size);
+  const SinglePrecision units(0.5 * (lower + upper), size);
   const TriangleTree::Device device = TriangleTree::NewDevice();
-  this->Surfaces_ = TriangleTree(device, surfaces, false, centre, this->Tolerance_);
-  this->Emitters_ = TriangleTree(device, emitters, true, centre, this->Tolerance_);
+  this->Surfaces_ = TriangleTree(device, surfaces, false, units, this->Tolerance_);
+  this->Emitters_ = TriangleTree(device, emitters, true, units, this->Tolerance_);
 }
 
 bool Geometry::Touch(const Hit& surface, const Hit& plate, const Vec3& direction) const

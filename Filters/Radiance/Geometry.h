@@ -58,6 +58,28 @@ struct Shaft
   Box Before;
 };
 
+/// The units of single precision: the same numbers, to their last digit but for rounding in double
+/// precision, in whatever unit of length a scene comes, so that lines that meet an edge meet it in
+/// all. It is finest at the scene's centre.
+class SinglePrecision
+{
+public:
+  SinglePrecision() = default;
+  /// @param size of the scene [m]
+  SinglePrecision(const Vec3& centre, double size) : Centre_(centre), Size_(size > 0.0 ? size : 1.0)
+  {
+  }
+
+  Vec3 Place(const Vec3& metres) const { return (metres - this->Centre_) / this->Size_; }
+  Vec3 PlaceOf(const Vec3& units) const { return this->Centre_ + this->Size_ * units; }
+  double Length(double metres) const { return metres / this->Size_; }
+  double Metres(double length) const { return length * this->Size_; }
+
+private:
+  Vec3 Centre_{0.0};
+  double Size_ = 1.0;
+};
+
 /// Triangles in double precision with their search structure, which works in single precision.
 class TriangleTree
 {
@@ -69,10 +91,9 @@ public:
   TriangleTree() = default;
   /// Exact duplicates and triangles without area are left out.
   /// @param emitters whether these are plates of signs and lamps
-  /// @param centre of the scene: where single precision is finest
   /// @param tolerance to which single precision knows distances in the scene, about [m]
-  TriangleTree(const Device& device, const SurfaceMesh& mesh, bool emitters, const Vec3& centre,
-    double tolerance);
+  TriangleTree(const Device& device, const SurfaceMesh& mesh, bool emitters,
+    const SinglePrecision& units, double tolerance);
 
   bool Empty() const { return !this->Tree_; }
   /// Triangles that are there to be hit, as indices into their mesh.
@@ -91,7 +112,7 @@ public:
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Which pieces of rays no triangle lies on; those beside one another cost a fraction of pieces
   /// asked for one by one.
-  /// @param trees of one scene, with the same centre, at least one
+  /// @param trees of one scene, with the same units, at least one
   static std::vector<bool> Clear(
     std::initializer_list<const TriangleTree*> trees, std::span<const RayPiece> pieces);
   /// Whether something holds for all triangles near to a place, which it is told with their corners
@@ -112,7 +133,7 @@ private:
   std::vector<std::size_t> Triangles_;
   std::vector<Vec3> Corners_, Normals_;
   std::vector<std::uint32_t> Cells_;
-  Vec3 Centre_{0.0};
+  SinglePrecision Units_;
   double Tolerance_ = 0.0;
   bool Emitters_ = false;
 };

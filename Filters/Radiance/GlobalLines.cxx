@@ -56,6 +56,12 @@ void DrawJoining(const Box& box, const std::array<double, 6>& random, Vec3& orig
 
 } // namespace
 
+std::size_t GlobalLines::AtLeast(double wanted)
+{
+  constexpr double rounding = 1e-9;
+  return static_cast<std::size_t>(std::ceil((1.0 - rounding) * wanted));
+}
+
 GlobalLines::GlobalLines(const Box& scene, std::size_t lines) : Kinds_{{scene, lines, lines}}
 {
 }
@@ -85,7 +91,7 @@ double GlobalLines::Kind::DensityAt(double length) const
 GlobalLines GlobalLines::Thinned(double share) const
 {
   const auto part = [share](const Kind& kind)
-  { return static_cast<std::size_t>(std::ceil(share * static_cast<double>(kind.Lines))); };
+  { return AtLeast(share * static_cast<double>(kind.Lines)); };
   GlobalLines thinned(this->Outer(), part(this->Kinds_.front()));
   for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
   {

@@ -18,6 +18,9 @@ namespace smokevis
 class GlobalLines
 {
 public:
+  /// As many as are wanted, in whole lines: roundings must not make one more.
+  static std::size_t AtLeast(double wanted);
+
   struct Line
   {
     /// Where it enters the scene, and how far it goes there [m].

@@ -236,7 +236,7 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
   const Medium& smoke = scene.Smoke();
   const double meetings = CrossingsPerSweep * std::clamp(FineTolerance / tolerance, 1.0, MostTimes);
   const auto count = [](double lines)
-  { return static_cast<std::size_t>(std::ceil(std::max(FewestLines, lines))); };
+  { return GlobalLines::AtLeast(std::max(FewestLines, lines)); };
   std::vector<CellGroup> groups = CellGroups(smoke);
   const double density = groups.empty() ? 0.0 : groups.front().Density();
   const Box box = SceneBox(scene);
@@ -272,7 +272,7 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
     const double lacking = wanted - lines.Meetings(part.Surface(), core);
     if (lacking > 0.0)
     {
-      lines.AddInner(within(part), static_cast<std::size_t>(std::ceil(lacking)));
+      lines.AddInner(within(part), GlobalLines::AtLeast(lacking));
     }
   };
   for (std::size_t i = 1; i < groups.size(); ++i)
@@ -291,8 +291,7 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
   {
     addThrough(body.Bounds, bright * body.Share);
   }
-  lines.AddJoining(
-    main, static_cast<std::size_t>(std::ceil(LongLines * static_cast<double>(mainLines))));
+  lines.AddJoining(main, GlobalLines::AtLeast(LongLines * static_cast<double>(mainLines)));
   return lines;
 }
 

@@ -26,7 +26,12 @@ double FewestHits(double reflectance)
   return std::max(least, aSquare * reflectance * reflectance);
 }
 
-/// Where a patch lies, and whom it may be put together with.
+/// Share of a cube's edge at which the scene's lower corner lies in its cube: rounding would decide
+/// on which side of a border walls lie that end the scene.
+constexpr double OffBorder = 0.4637;
+
+/// Where a patch lies, and whom it may be put together with. In the scene's sizes, from its lower
+/// corner on, so that the unit of length and the place of the origin change nothing.
 struct Place
 {
   Vec3 Centre{0.0}, Normal{0.0};
@@ -45,7 +50,7 @@ Kind KindOf(const Place& place, double hits, double reflectance)
   int facing = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    cube[axis] = std::llround(std::floor(place.Centre[axis] / edge));
+    cube[axis] = std::llround(std::floor(place.Centre[axis] / edge + OffBorder));
     facing = std::abs(place.Normal[axis]) > std::abs(place.Normal[facing]) ? axis : facing;
   }
   return {scale, cube, 2 * facing + (place.Normal[facing] > 0.0 ? 1 : 0), reflectance};
@@ -74,6 +79,7 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
       places[patch].Normal += AreaVector(corners);
       places[patch].Centre += area * CentreOf(corners);
     });
+  const double size = glm::length(scene.Upper() - scene.Lower());
   // Patches of one kind that share a corner.
   std::map<Kind, std::vector<std::uint32_t>> kinds;
   for (std::size_t patch = 0; patch < patches; ++patch)
@@ -81,7 +87,8 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
     Place& place = places[patch];
     if (place.Area > 0.0)
     {
-      place.Centre /= place.Area;
+      place.Centre = (place.Centre / place.Area - scene.Lower()) / size;
+      place.Area /= size * size;
       kinds[KindOf(place, std::max(hits[2 * patch], hits[2 * patch + 1]),
               scene.PatchReflectance(patch)[band])]
         .push_back(static_cast<std::uint32_t>(patch));
@@ -102,7 +109,6 @@ PatchGroups::PatchGroups(const Scene& scene, int band, std::vector<float>& hits)
     }
   }
   std::vector<SharedCorner> all;
-  const double size = glm::length(scene.Upper() - scene.Lower());
   scene.ForEachTriangle(
     [&](std::size_t patch, const Triangle& corners)
     {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 namespace smokevis
@@ -109,14 +108,14 @@ double SmokeBorders::StepAt(
 SmokeBorders::Border SmokeBorders::Largest(const std::vector<LightGroup>& leaves) const
 {
   const std::array<Vec3, 4> plate = RectangleAround(leaves, leaves.front().Centre);
-  const auto [lower, upper] = std::accumulate(plate.begin(), plate.end(), Box::Nothing(),
-    [](Box box, const Vec3& corner)
-    {
-      box.Add({corner, corner});
-      return box;
-    });
+  const Box bounds = Box::Around(plate);
+  // A plate often lies in the outer face of the smoke: rounding must not decide whether it meets
+  // it.
+  const Vec3 before = InFront * glm::length(bounds.Size()) * leaves.front().Normal;
+  Box near = bounds;
+  near.Add({bounds.Lower + before, bounds.Upper + before});
   std::array<std::set<double>, 3> places;
-  this->Smoke_.ForCellsIn(lower, upper,
+  this->Smoke_.ForCellsIn(near.Lower, near.Upper,
     [&](std::int64_t cell)
     {
       const Box box = this->Smoke_.BoxOf(cell);
@@ -124,7 +123,7 @@ SmokeBorders::Border SmokeBorders::Largest(const std::vector<LightGroup>& leaves
       {
         for (const double place : {box.Lower[axis], box.Upper[axis]})
         {
-          if (place > lower[axis] && place < upper[axis])
+          if (place > bounds.Lower[axis] && place < bounds.Upper[axis])
           {
             places[axis].insert(place);
           }

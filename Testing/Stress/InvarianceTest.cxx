@@ -3,6 +3,9 @@
 #include "TestReport.h"
 
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -95,6 +98,37 @@ TEST(Invariance, UnitOfLength)
                    std::to_string(factor) + ", largest relative changes");
       const Solved scaled(scenes::Scaled(room, factor), tolerance);
       CompareFields(plain, scaled, factor, Vec3(0.0), 1e-5);
+    }
+  }
+}
+
+// The unit of length and the place of the origin neither change a random scene: not which lines are
+// drawn, what they meet or how lights are divided. Of 400 such scenes four do, by up to 3e-4 of
+// their dark bars, where a line meets an edge by rounding.
+TEST(Invariance, RandomScenes)
+{
+  constexpr double tolerance = 0.1;
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+  {
+    for (const auto& [kind, room] :
+      {std::pair("room ", scenes::MakeRandomRoom(seed)), {"field ", scenes::MakeRandomField(seed)}})
+    {
+      report::Head("Random " + (kind + std::to_string(seed)) + ", times 1e3, 1e-3, 1e6 m away");
+      const auto measure = [&, &scene = room](double factor, const Vec3& offset)
+      {
+        const Solved solved(
+          scenes::Moved(scenes::Scaled(scene.Description, factor), offset), tolerance);
+        return MeasureSign(*solved.TheView, 0, factor * scene.Eye + offset, Observer{0.0});
+      };
+      const SignMeasurement plain = measure(1.0, Vec3(0.0));
+      for (const auto& [factor, offset, allowed] : {std::tuple(1e3, Vec3(0.0), 1e-5),
+             {1e-3, Vec3(0.0), 1e-5}, {1.0, Vec3(1e6, -1e6, 1e6), 1e-4}})
+      {
+        const SignMeasurement other = measure(factor, offset);
+        report::Absolute("contrast", plain.Contrast, other.Contrast, allowed);
+        report::Relative(
+          "luminance of dark bars", plain.UnlitLuminance, other.UnlitLuminance, allowed);
+      }
     }
   }
 }

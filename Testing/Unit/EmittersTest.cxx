@@ -385,6 +385,30 @@ TEST(Emitters, BordersOfSmokeDivideLights)
   EXPECT_EQ(EmitterSet(plate, 1, AnySize, &blue).Lights().size(), 2U);
 }
 
+// A plate that ends the smoke is divided, whichever way rounding places it, and one on its back,
+// before which there is none, is not.
+TEST(Emitters, BordersOfSmokeDivideLightsInItsOuterFace)
+{
+  SmokeGrid grid;
+  grid.Nodes = {{{-1.0, 0.5, 3.0}, {-1.0, 2.0}, {-1.0, 0.0}}};
+  grid.Extinction = {0.0F, 0.2F};
+  const Medium under({grid});
+  grid.Nodes[2] = {0.0, 1.0};
+  const Medium over({grid});
+  for (const double off : {-1e-15, 0.0, 1e-15})
+  {
+    std::vector<EmitterCell> plate = {Rectangle(0, 2, 0, 1, 10.0, -1)};
+    for (Vec3& vertex : plate[0].Vertices)
+    {
+      vertex.z += off;
+    }
+    const SmokeBorders behind(under, 1.0);
+    const SmokeBorders before(over, 1.0);
+    EXPECT_EQ(EmitterSet(plate, 1, AnySize, &before).Lights().size(), 2U) << off;
+    EXPECT_EQ(EmitterSet(plate, 1, AnySize, &behind).Lights().size(), 1U) << off;
+  }
+}
+
 // A light in smoke that varies from cell to cell stays few.
 TEST(Emitters, NoisySmokeMakesNoSwarmOfLights)
 {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -269,6 +270,50 @@ TEST(Geometry, LinesCutEdges)
     }
   }
   EXPECT_GT(cut, 150);
+}
+
+// Rays that meet or just miss edges meet or miss them in whatever unit of length, and wherever
+// shapes lie: single precision knows them by their place among each other.
+TEST(Geometry, EdgesInAnyUnitOfLength)
+{
+  SurfaceMesh mesh;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+  for (int i = 0; i < 40; ++i)
+  {
+    const Vec3 corner = point();
+    AddQuad(mesh, corner, corner + Vec3(0.7, 0.1, 0), corner + Vec3(0.6, 0.8, 0.2),
+      corner + Vec3(0, 0.7, 0.1));
+  }
+  const Geometry plain(mesh, {});
+  for (const auto& [factor, offset] : {std::pair(1e3, 0.0), {1e-3, 0.0}, {1.0, 1e4}})
+  {
+    SurfaceMesh other = mesh;
+    for (Vec3& corner : other.Points)
+    {
+      corner = factor * corner + Vec3(offset);
+    }
+    const Geometry moved(other, {});
+    int found = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+      // Within some 1e-7 of an edge.
+      const Vec3& corner = mesh.Points[4 * (i % 40)];
+      const Vec3& next = mesh.Points[4 * (i % 40) + 1];
+      const Vec3 target = glm::mix(corner, next, 0.25 * place(random) + 0.5) + 1e-7 * point();
+      const Vec3 origin = point();
+      const Vec3 direction = glm::normalize(target - origin);
+      const Hit a = plain.Intersect(origin, direction, 0.0, 20.0);
+      const Hit b = moved.Intersect(factor * origin + Vec3(offset), direction, 0.0, factor * 20.0);
+      ASSERT_EQ(a.Found(), b.Found()) << factor << " " << offset << " ray " << i;
+      EXPECT_EQ(a.Triangle, b.Triangle);
+      EXPECT_EQ(a.Side, b.Side);
+      found += a.Found() ? 1 : 0;
+    }
+    EXPECT_GT(found, 5000);
+    EXPECT_LT(found, 20000);
+  }
 }
 
 // A closed box has no cracks: rays through its edges and corners do not get out.
