@@ -380,6 +380,7 @@ std::optional<SignMeasurement> SignLook::Measure(double cutOff)
       return SignMeasurement{.InView = true, .BelowCutOff = true};
     }
   }
+  result.Clear = this->Sight_.Clear();
   result.VisibleFraction = this->Sight_.VisibleFraction();
   this->MakeVeils();
   this->FillResult();

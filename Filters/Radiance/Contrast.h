@@ -22,6 +22,8 @@ struct SignMeasurement
   bool InView = false;
   /// Whether it is cut off; all but InView is then zero.
   bool BelowCutOff = false;
+  /// Whether nothing reaches between the eye and the plate, so that none of its parts is looked at.
+  bool Clear = false;
   /// Share of the plate (by solid angle) that shows, 0 to 1.
   double VisibleFraction = 0.0;
   /// Standard deviation over mean of the luminance, its standard error by the light field's noise,

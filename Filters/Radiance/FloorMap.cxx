@@ -32,6 +32,7 @@ struct Counts
   std::atomic<std::size_t> Away{0};
   std::atomic<std::size_t> CutOff{0};
   std::atomic<std::size_t> Hidden{0};
+  std::atomic<std::size_t> Clear{0};
   std::atomic<std::size_t> Gathered{0};
   std::atomic<std::size_t> Uncertain{0};
   std::atomic<std::size_t> Uneven{0};
@@ -82,6 +83,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
       cut = cut || measured.BelowCutOff;
       continue;
     }
+    counts.Clear += measured.Clear ? 1 : 0;
     counts.Gathered += measured.Rays > 0 ? 1 : 0;
     counts.Rays += measured.Rays;
     counts.Uncertain += measured.LeftUncertain ? 1 : 0;
@@ -158,6 +160,8 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   const std::size_t views = own * map.Signs;
   const std::size_t left = counts.Solid * map.Signs + counts.Away + counts.CutOff;
   say("views of signs computed", views - left - counts.Hidden, "the sign is in view");
+  say("views of signs not looked at in parts", counts.Clear,
+    "nothing reaches between the eye and the sign");
   say(
     "views of signs gathered for", counts.Gathered, "the light field left the contrast uncertain");
   say("views of signs not gathered for", counts.Uncertain,

@@ -87,9 +87,9 @@ bool NothingBefore(const View& view, const Sign& sign, const Vec3& eye, const Fa
     return OnFacet(scene.Lights(), sign, facet, {u, v});
   };
   // What touches a plate leaves it free, which another sign does not.
-  return sign.Alone && scene.Shapes().Free(
-                         {{corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)},
-                           facet.Normal, {eye, eye}});
+  const Shaft shaft{{corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)},
+    facet.Normal, {eye, eye}};
+  return view.Skips().Looks && sign.Alone && scene.Shapes().Free(shaft);
 }
 
 //--------------------------------------------------------------------------------------------------

@@ -102,6 +102,7 @@ SignSight::SignSight(
   std::transform(facets.begin(), facets.end(), std::back_inserter(clear),
     [&](const Facet& facet) { return NothingBefore(view, sign, eye, facet); });
   this->AddWhole(facets, clear, borders);
+  this->Clear_ = std::find(clear.begin(), clear.end(), false) == clear.end();
   if (!this->Resolved() || facets.size() > MostCutFacets)
   {
     return;

@@ -62,6 +62,8 @@ public:
   double VisibleFraction() const { return this->Seen_ / this->All_; }
   /// Whether something hides a part of what faces the eye.
   bool PartlyHidden() const { return this->Seen_ < (1.0 - 1e-9) * this->All_; }
+  /// Whether nothing reaches between the eye and what faces it, so that no part is looked at.
+  bool Clear() const { return this->Clear_; }
 
 private:
   PlateBorders Borders(double blocks) const;
@@ -107,6 +109,7 @@ private:
   /// Whether there are many blocks, since smoke is uneven.
   bool Fine_;
   std::vector<bool> Lit_;
+  bool Clear_ = false;
   std::vector<Part> Parts_;
   std::vector<SeenPlace> Places_;
   /// Solid angle of all that faces the eye, and of what it sees of that.

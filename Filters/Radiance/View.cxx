@@ -56,7 +56,7 @@ Lanes RayLight::TotalLanes() const
 /// What views need beyond the light field: how it varies inside and between cells.
 struct View::Implementation
 {
-  Implementation(const Scene& scene, const LightField& field, bool skips)
+  Implementation(const Scene& scene, const LightField& field, const ViewSkips& skips)
       : TheScene(scene), Field(field), Direct(scene), DirectFluence(scene, field)
   {
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
@@ -70,7 +70,7 @@ struct View::Implementation
       this->MultipleNear[band] = std::make_unique<NearMultiple>(*this->Indirect[band]);
     }
     this->FindLeak();
-    this->Negligible = skips ? NegligibleShare * field.Tolerance : 0.0;
+    this->Negligible = skips.HiddenSmoke ? NegligibleShare * field.Tolerance : 0.0;
     for (int band = 0; band < field.Bands; ++band)
     {
       this->Brightest[band] = this->BrightestSmoke(band);
@@ -176,8 +176,9 @@ void View::Implementation::AddMultiple(
   }
 }
 
-View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field, bool skips)
-    : Scene_(std::move(scene)), Field_(std::move(field)),
+View::View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field,
+  const ViewSkips& skips)
+    : Scene_(std::move(scene)), Field_(std::move(field)), Skips_(skips),
       Implementation_(std::make_unique<Implementation>(*this->Scene_, *this->Field_, skips))
 {
 }

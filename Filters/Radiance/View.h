@@ -35,19 +35,27 @@ struct RayLight
   Lanes TotalLanes() const;
 };
 
+/// What views leave out; off: to measure what that saves.
+struct ViewSkips
+{
+  /// The rest of a ray where so much smoke lies before it that it adds next to nothing.
+  bool HiddenSmoke = true;
+  /// Looks at the parts of a sign where nothing reaches between that and the eye.
+  bool Looks = true;
+};
+
 /// A light field and what views of it need. Immutable but for a count; Trace may be called from
 /// many threads.
 class View
 {
 public:
-  /// @param skips whether rays are cut short where so much smoke lies before the rest of a ray that
-  /// it adds next to nothing; off: to measure what that saves
-  View(
-    std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field, bool skips = true);
+  View(std::shared_ptr<const Scene> scene, std::shared_ptr<const LightField> field,
+    const ViewSkips& skips = {});
   ~View();
 
   const Scene& TheScene() const { return *this->Scene_; }
   const LightField& Field() const { return *this->Field_; }
+  const ViewSkips& Skips() const { return this->Skips_; }
 
   /// First shape that a ray meets, at most `end` metres away.
   Hit FirstHit(const Vec3& origin, const Vec3& direction,
@@ -100,6 +108,7 @@ private:
 
   std::shared_ptr<const Scene> Scene_;
   std::shared_ptr<const LightField> Field_;
+  ViewSkips Skips_;
   std::unique_ptr<Implementation> Implementation_;
 };
 

@@ -253,18 +253,23 @@ void SkipSigns(ResultTable& table, const Settings& settings)
       return values;
     });
   places.CutOff = 0.0;
-  const View whole(hall.TheScene, hall.Field, false);
-  Compare(table, "veil behind smoke that hides it", "the same",
-    [&](bool skips)
-    {
-      const FloorMap map = ComputeFloorMap(skips ? *hall.TheView : whole, places, progress);
-      Values values;
-      for (const float contrast : map.Contrast)
+  const auto compare = [&](const std::string& skip, const ViewSkips& others)
+  {
+    const View without(hall.TheScene, hall.Field, others);
+    Compare(table, skip, "the same",
+      [&](bool skips)
       {
-        values.push_back(std::max<double>(contrast, LeastContrast));
-      }
-      return values;
-    });
+        const FloorMap map = ComputeFloorMap(skips ? *hall.TheView : without, places, progress);
+        Values values;
+        for (const float contrast : map.Contrast)
+        {
+          values.push_back(std::max<double>(contrast, LeastContrast));
+        }
+        return values;
+      });
+  };
+  compare("veil behind smoke that hides it", {.HiddenSmoke = false});
+  compare("looks at parts of signs that nothing hides", {.Looks = false});
   Compare(table, "signs that face away", "the same",
     [&](bool skips)
     {

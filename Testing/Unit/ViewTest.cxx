@@ -32,7 +32,7 @@ struct Views
     const auto field =
       std::make_shared<const LightField>(SolveLightField(*scene, options, progress));
     this->Cut = std::make_unique<const View>(scene, field);
-    this->Whole = std::make_unique<const View>(scene, field, false);
+    this->Whole = std::make_unique<const View>(scene, field, ViewSkips{.HiddenSmoke = false});
   }
 
   std::unique_ptr<const View> Cut, Whole;

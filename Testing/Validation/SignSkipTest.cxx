@@ -149,13 +149,55 @@ TEST(SignSkip, SignsThatShowInAPart)
   ExpectKept(reflecting, {5.0, 2.0, 2.0}, 0.1);
 }
 
+// Where nothing reaches between eye and sign its parts are not looked at, and where anything does
+// they are: a bar that hides a strip of it, one that ends beside it, and one behind it.
+TEST(SignSkip, LooksAtWhatNothingHides)
+{
+  SceneDescription scene = scenes::Corridor(0.25);
+  scene.Emitters = scenes::Barcode({59.99, 2.0, 2.0}, {-1, 0, 0}, {0, 0, 1}, 1.0, 0.5, 5, 200.0, 0);
+  struct Bar
+  {
+    /// Distance from the sign, and where it begins sideways [m].
+    double Before, From;
+    bool Clear, Hides;
+  };
+  // The sign reaches to 2.5 m sideways, and half way to the eye to 2.25. What lies right beside the
+  // lines of sight is looked at, since no plane across an axis parts it from them.
+  for (const Bar& bar : {Bar{5.0, 3.9, true, false}, {5.0, 2.24, false, true},
+         {5.0, 2.26, false, false}, {0.005, 2.0, false, true}, {-0.005, 2.0, true, false}})
+  {
+    SceneDescription barred = scene;
+    scenes::AddRectangle(barred.Surfaces, {59.99 - bar.Before, bar.From, 0.5},
+      {0, 4.0 - bar.From, 0}, {0, 0, 3}, 1, 1, 0.3);
+    const Solved solved(barred, 0.1);
+    const View looking(solved.TheScene, solved.Field, ViewSkips{.Looks = false});
+    const Vec3 eye(49.99, 2.0, 2.0);
+    const SignMeasurement left = MeasureSign(*solved.TheView, 0, eye, Observer{});
+    const SignMeasurement looked = MeasureSign(looking, 0, eye, Observer{});
+    EXPECT_EQ(left.Clear, bar.Clear) << bar.Before << " " << bar.From;
+    EXPECT_FALSE(looked.Clear);
+    EXPECT_EQ(looked.VisibleFraction < 1.0, bar.Hides) << bar.Before << " " << bar.From;
+    EXPECT_EQ(left.VisibleFraction, looked.VisibleFraction);
+    EXPECT_EQ(left.Contrast, looked.Contrast);
+    EXPECT_EQ(left.MeanLuminance, looked.MeanLuminance);
+    Progress progress;
+    FloorMapOptions options;
+    options.FirstPlace = eye;
+    options.PlacesX = 1;
+    options.PlacesY = 1;
+    const FloorMap map = ComputeFloorMap(*solved.TheView, options, progress);
+    EXPECT_EQ(
+      WorkCount(map.Report, "views of signs not looked at in parts"), bar.Clear ? 1.0 : 0.0);
+  }
+}
+
 /// Looks at the first sign along the corridor, with and without the veil that smoke ahead hides.
 /// Adds to the rays that were cut short.
 void ExpectAlike(const SceneDescription& scene, double tolerance, const std::vector<double>& from,
   std::size_t& cutShort)
 {
   const Solved solved(scene, tolerance);
-  const View whole(solved.TheScene, solved.Field, false);
+  const View whole(solved.TheScene, solved.Field, ViewSkips{.HiddenSmoke = false});
   for (const double x : from)
   {
     const Vec3 eye(x, 2.1, 1.7);
