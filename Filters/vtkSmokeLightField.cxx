@@ -40,6 +40,8 @@ constexpr double DefaultAlbedo = 0.3;
 constexpr double AutomaticPatches = 50.0;
 /// Ratio of sizes beyond which surfaces and smoke are likely in different units.
 constexpr double SuspiciousRatio = 100.0;
+/// Share of the cells that may be coarse before there is a warning, such as those in flames.
+constexpr double TolerableShare = 0.01;
 
 using smokevis::Error;
 using smokevis::SceneBlocks;
@@ -178,6 +180,19 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
+void vtkSmokeLightField::WarnOfCoarseCells(const smokevis::LightField& field)
+{
+  if (static_cast<double>(field.CoarseCells) > TolerableShare * static_cast<double>(field.Cells))
+  {
+    vtkWarningMacro(<< "Smoke: " << field.CoarseCells << " of " << field.Cells
+                    << " cells are so thick that light is scattered more than once on a mean way "
+                    << "through them. What lies in the dark behind several of them may come out "
+                    << "many times too bright, which no error bar tells: give smoke on a finer "
+                    << "grid.");
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSmokeLightField::SolveBlocks(Task& task)
 {
   const smokevis::Ranks ranks;
@@ -201,6 +216,7 @@ void vtkSmokeLightField::SolveBlocks(Task& task)
     { field = smokevis::SolveLightField(*scene, solver, progress); });
   task.Waited = team.Waited();
   task.Report.insert(task.Report.end(), field.Report.begin(), field.Report.end());
+  this->WarnOfCoarseCells(field);
   ranks.Together(this,
     [&] { smokevis::StoreLightField(std::move(field), scene->Smoke(), task.Blocks, this->Bands); });
 }

@@ -49,6 +49,7 @@
 namespace smokevis
 {
 class Agreement;
+struct LightField;
 struct SceneBlocks;
 struct SceneDescription;
 struct SceneOptions;
@@ -194,6 +195,8 @@ private:
   /// Warns where an input of surfaces is more than a hundred times larger or smaller than the
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
+  /// Warns where a part of the smoke's cells is too coarse for what it is to tell.
+  void WarnOfCoarseCells(const smokevis::LightField& field);
   /// What the properties, and the smoke's own albedo, make of the scene.
   smokevis::SceneOptions Options(
     vtkDataObject* smoke, std::vector<smokevis::WorkItem>& report) const;

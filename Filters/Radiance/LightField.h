@@ -56,6 +56,9 @@ struct LightField
   std::vector<Lanes> MultipleIlluminance;
   /// What was done and what was left out.
   std::vector<WorkItem> Report;
+  /// Cells in which light is scattered more than once on a mean way through them, of the band that
+  /// has most: too coarse to tell how it varies there.
+  std::size_t CoarseCells = 0;
 
   std::size_t CellIndex(int band, std::int64_t cell) const { return band * this->Cells + cell; }
   std::size_t PatchIndex(int band, std::size_t patch, int side) const

@@ -291,6 +291,7 @@ void MultipleSolve::Band(int band)
       "what they scatter to themselves is summed up, not swept");
   }
   const std::size_t coarse = this->Arena_.execute([&] { return CoarseCells(this->Scene_, band); });
+  this->Field_.CoarseCells = std::max(this->Field_.CoarseCells, coarse);
   if (coarse > 0)
   {
     this->Say(name + "coarse cells", static_cast<double>(coarse),
