@@ -11,13 +11,13 @@ tbb="$PWD/build/tsan-tbb"
 if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   rm -rf "$tbb"
   mkdir -p "$tbb/lists/partial" "$tbb/sources.list.d" "$tbb/lib"
-  cat > "$tbb/sources.list.d/debian.sources" <<SOURCES
-Types: deb-src
-URIs: http://deb.debian.org/debian
-Suites: bookworm
-Components: main
-Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
-SOURCES
+  # Sources come from where the machine's packages do.
+  for list in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [ ! -e "$list" ] || sed -n 's/^deb /deb-src /p' "$list" >> "$tbb/sources.list.d/packages.list"
+  done
+  for list in /etc/apt/sources.list.d/*.sources; do
+    [ ! -e "$list" ] || sed 's/^Types:.*/Types: deb-src/' "$list" > "$tbb/sources.list.d/${list##*/}"
+  done
   # The machine's own lists of packages stay as they are.
   apt=(apt-get -o Dir::Etc::SourceList=/dev/null -o "Dir::Etc::SourceParts=$tbb/sources.list.d"
     -o "Dir::State::Lists=$tbb/lists" -o "Dir::Cache=$tbb" -o APT::Sandbox::User=)
