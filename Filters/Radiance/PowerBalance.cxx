@@ -19,8 +19,8 @@ namespace
 /// A field is not scaled by more than this at once.
 constexpr double SmallestScale = 0.25;
 constexpr double LargestScale = 1e3;
-/// Standard error of a loss over itself up to which what each batch changes of it counts to first
-/// order.
+/// Standard error of a loss over itself up to which each batch is brought to it even where that
+/// brings noise along.
 constexpr double LargestLinearError = 0.1;
 /// Share of the light sent out that must be lost, or else what leaks through rounded corners
 /// decides.
@@ -29,17 +29,9 @@ constexpr double SmallestLoss = 1e-5;
 constexpr double LeakShare = 1e-6;
 /// Standard errors that what diffusion completes must be off by to be scaled.
 constexpr double ClearDeviations = 3.0;
-/// Share of the spread of the batches that must be left for each to be scaled for itself there: the
-/// balance has noise of its own.
+/// Share of the spread of the batches that must be left for them to be scaled there: the balance
+/// has noise of its own.
 constexpr double ClearShare = 0.5;
-
-void Multiply(std::vector<float>& values, double scale)
-{
-  for (float& value : values)
-  {
-    value *= static_cast<float>(scale);
-  }
-}
 
 double RelativeError(const DoubleLanes& values)
 {
@@ -75,10 +67,10 @@ PowerBalance::PowerBalance(
   arena.execute([&] { this->Source_ = FirstSource(scene, field, band).Whole(outer); });
 }
 
-template <class Body> void PowerBalance::ForEach(std::size_t batches, Body&& body) const
+template <class Body> void PowerBalance::ForEach(std::size_t count, Body&& body) const
 {
   this->Arena_.execute(
-    [&] { tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) { body(i); }); });
+    [&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
 }
 
 std::vector<PowerBalance::Powers> PowerBalance::Of(const std::vector<BatchState>& batches) const
@@ -190,39 +182,29 @@ void PowerBalance::ExpectBalance(const std::vector<Powers>& powers) const
 
 PowerBalance::Scales PowerBalance::ScalesOf(const std::vector<Powers>& powers) const
 {
-  Scales scales;
   DoubleLanes losses;
-  DoubleLanes plain;
-  DoubleLanes scaled;
+  DoubleLanes sent;
   for (int batch = 0; batch < Batches; ++batch)
   {
     losses[batch] = powers[batch].Lost;
-    plain[batch] = powers[batch].SentAgain;
-    scales.Own[batch] = this->ScaleFor(losses[batch]);
-    scaled[batch] = plain[batch] * scales.Own[batch];
+    sent[batch] = powers[batch].SentAgain;
   }
+  Scales scales;
+  scales.Spread = RelativeError(sent);
   scales.CommonError = RelativeError(losses);
-  scales.Common = scales.CommonError < 1.0 ? this->ScaleFor(Mean(losses)) : 1.0;
-  scales.Spreading.fill(scales.Common);
-  if (const double lost = Mean(losses); lost > 0.0 && scales.CommonError < LargestLinearError)
+  const double lost = Mean(losses);
+  if (lost > 0.0 && scales.CommonError < 1.0)
   {
-    DoubleLanes factors;
-    std::transform(losses.begin(), losses.end(), factors.begin(),
-      [lost](double own) { return std::max(SmallestScale, 2.0 - own / lost); });
-    const double mean = Mean(factors);
-    std::transform(factors.begin(), factors.end(), scales.Spreading.begin(),
-      [&](double factor)
-      { return std::clamp(scales.Common * factor / mean, SmallestScale, LargestScale); });
+    scales.Common = std::clamp(this->Source_ / lost, SmallestScale, LargestScale);
+    const double mean = Mean(sent);
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      scales.Missing[batch] = 1.0 - losses[batch] / lost;
+      sent[batch] += scales.Missing[batch] * mean;
+    }
   }
-  scales.Spread = RelativeError(plain);
-  scales.OwnSpread = RelativeError(scaled);
+  scales.BalancedSpread = RelativeError(sent);
   return scales;
-}
-
-double PowerBalance::ScaleFor(double loss) const
-{
-  // That less than nothing is lost is noise, which must not grow.
-  return loss > 0.0 ? std::clamp(this->Source_ / loss, SmallestScale, LargestScale) : 1.0;
 }
 
 double PowerBalance::SentAgain(const std::vector<Powers>& powers, double Powers::*by) const
@@ -245,20 +227,19 @@ void PowerBalance::ScaleLatest(
   {
     return;
   }
-  const Scales scales = this->ScalesOf(powers);
-  this->ForEach(batches.size(),
-    [&](std::size_t i)
-    {
-      const double scale = scales.OwnSpread < scales.Spread ? scales.Own[i] : scales.Spreading[i];
-      Multiply(batches[i].Fluence, scale);
-      Multiply(batches[i].Illuminance, scale);
-    });
+  Scales scales = this->ScalesOf(powers);
+  if (scales.CommonError >= LargestLinearError && scales.BalancedSpread >= scales.Spread)
+  {
+    scales.Missing = {};
+  }
+  this->Scale(scales, &BatchState::Fluence, &BatchState::FluenceSum, batches);
+  this->Scale(scales, &BatchState::Illuminance, &BatchState::IlluminanceSum, batches);
 }
 
 void PowerBalance::ScaleSums(
   const std::vector<Powers>& powers, std::vector<BatchState>& batches) const
 {
-  this->ScaleBy(this->ScalesOf(powers), 1.0, Closed(powers), batches);
+  this->ScaleSumsBy(this->ScalesOf(powers), 1.0, Closed(powers), batches);
 }
 
 void PowerBalance::ScaleCompleted(
@@ -266,30 +247,36 @@ void PowerBalance::ScaleCompleted(
 {
   const Scales scales = this->ScalesOf(powers);
   const bool clear = std::abs(scales.Common - 1.0) > ClearDeviations * scales.CommonError;
-  this->ScaleBy(scales, ClearShare, clear || Closed(powers), batches);
+  this->ScaleSumsBy(scales, ClearShare, clear || Closed(powers), batches);
 }
 
-void PowerBalance::ScaleBy(
-  Scales scales, double share, bool alike, std::vector<BatchState>& batches) const
+void PowerBalance::ScaleSumsBy(
+  const Scales& scales, double share, bool always, std::vector<BatchState>& batches) const
 {
-  if (this->Sky_)
+  if (!this->Sky_ && (always || scales.BalancedSpread < share * scales.Spread))
   {
-    return;
+    this->Scale(scales, &BatchState::FluenceSum, &BatchState::FluenceSum, batches);
+    this->Scale(scales, &BatchState::IlluminanceSum, &BatchState::IlluminanceSum, batches);
   }
-  if (!(scales.OwnSpread < share * scales.Spread))
-  {
-    scales.Own.fill(alike ? scales.Common : 1.0);
-  }
-  this->Scale(scales.Own, batches);
 }
 
-void PowerBalance::Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const
+void PowerBalance::Scale(const Scales& scales, std::vector<float> BatchState::*values,
+  std::vector<float> BatchState::*sums, std::vector<BatchState>& batches) const
 {
-  this->ForEach(batches.size(),
+  const double counted = values == sums ? 1.0 : batches.front().Counted;
+  this->ForEach((batches.front().*sums).size(),
     [&](std::size_t i)
     {
-      Multiply(batches[i].FluenceSum, scales[i]);
-      Multiply(batches[i].IlluminanceSum, scales[i]);
+      double mean = 0.0;
+      for (const BatchState& batch : batches)
+      {
+        mean += (batch.*sums)[i] / (counted * Batches);
+      }
+      for (std::size_t batch = 0; batch < batches.size(); ++batch)
+      {
+        float& value = (batches[batch].*values)[i];
+        value = static_cast<float>(scales.Common * (value + scales.Missing[batch] * mean));
+      }
     });
 }
 

@@ -15,9 +15,13 @@ class Scene;
 struct LightField;
 
 /// Scales light to be in balance as a whole, which sums the series of reflections of its slowest
-/// mode at once. Each batch for itself where that makes them agree better; where light leaves the
-/// scene, its loss may be known less well than the light itself. With a sky nothing is scaled:
-/// light that goes straight out again tells nothing about the rest.
+/// mode at once. All batches are scaled alike, by the mean of what they lose; what one lost more or
+/// less than that is taken from it, or given to it, in the shape of the mean of all. So each is in
+/// balance, their spread tells the error of the ratio that their mean is, and that has next to no
+/// bias: were each scaled for itself, what is far from where most is lost would come out too bright
+/// by the square of a batch's noise. Where light leaves the scene, its loss may be known less well
+/// than the light itself. With a sky nothing is scaled: light that goes straight out again tells
+/// nothing about the rest.
 class PowerBalance
 {
 public:
@@ -49,16 +53,15 @@ public:
   void ExpectLoss(const std::vector<Powers>& powers) const;
   /// Throws Error where what is lost is far from what is emitted: light that does not settle.
   void ExpectBalance(const std::vector<Powers>& powers) const;
-  /// Scales the latest estimates by the means of the sweeps that count: each batch for itself where
-  /// they then agree better; else in the mean as all together say, and each by what it changes of
-  /// that. Slow light stays for long at what it is scaled to, and all batches would be off alike.
+  /// Scales the latest estimates by the means of the sweeps that count. Slow light stays for long
+  /// at what it is scaled to, and all batches would be off alike: so each is brought into balance.
   void ScaleLatest(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
-  /// Scales the sums, each batch for itself where they then agree better, else all alike where no
-  /// light leaves the scene: then all of it is known to be lost there.
+  /// Scales the sums where the batches then agree better, and where no light leaves the scene: then
+  /// all of it is known to be lost there.
   void ScaleSums(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
-  /// Scales sums that diffusion completes, each batch for itself where they then agree much better:
-  /// else that would bring the noise of the balance along; all alike where what they lose is
-  /// clearly not what is emitted, or no light leaves the scene.
+  /// Scales sums that diffusion completes where the batches then agree much better: else that would
+  /// bring the noise of the balance along; and where what they lose is clearly not what is emitted,
+  /// or no light leaves the scene.
   void ScaleCompleted(const std::vector<Powers>& powers, std::vector<BatchState>& batches) const;
 
   /// What surfaces take up and absorb of the light that is kept in a field, which is not direct, a
@@ -74,27 +77,27 @@ public:
 private:
   struct Scales
   {
-    /// Of each batch, of all alike, and the relative standard error of the latter.
-    DoubleLanes Own{};
+    /// Of all batches, and its relative standard error.
     double Common = 1.0, CommonError = 0.0;
-    /// Of each batch: in the mean that of all, by more or less as its own loss changes that to
-    /// first order, so that their spread is its error. Where that is large, the same of all.
-    DoubleLanes Spreading{};
-    /// Relative standard error of what the batches send on, and of the same each with its own
-    /// scale.
-    double Spread = 0.0, OwnSpread = 0.0;
+    /// What each batch lost less than all in the mean, over that.
+    DoubleLanes Missing{};
+    /// Relative standard error of what the batches send on, and of the same when they have got what
+    /// they miss.
+    double Spread = 0.0, BalancedSpread = 0.0;
   };
 
   /// Whether no light leaves the scene, but for what rounding lets through corners.
   static bool Closed(const std::vector<Powers>& powers);
   Scales ScalesOf(const std::vector<Powers>& powers) const;
-  double ScaleFor(double loss) const;
-  /// @param share of the spread of the batches below which each is scaled for itself
-  /// @param alike whether else all are
-  void ScaleBy(Scales scales, double share, bool alike, std::vector<BatchState>& batches) const;
-  void Scale(const DoubleLanes& scales, std::vector<BatchState>& batches) const;
-  /// Runs body(i) for each batch.
-  template <class Body> void ForEach(std::size_t batches, Body&& body) const;
+  /// @param share of the spread of the batches that must be left at most
+  /// @param always or else whatever is left
+  void ScaleSumsBy(
+    const Scales& scales, double share, bool always, std::vector<BatchState>& batches) const;
+  /// Scales values of the batches that have the shape of these sums, or are these.
+  void Scale(const Scales& scales, std::vector<float> BatchState::*values,
+    std::vector<float> BatchState::*sums, std::vector<BatchState>& batches) const;
+  /// Runs body(i) for each of a count.
+  template <class Body> void ForEach(std::size_t count, Body&& body) const;
 
   const Scene& Scene_;
   tbb::task_arena& Arena_;

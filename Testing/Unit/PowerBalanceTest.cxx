@@ -123,14 +123,45 @@ TEST_F(PowerBalanceTest, Powers)
   }
 }
 
-// Batches that hold too much or too little light as a whole agree when each is scaled for itself.
-TEST_F(PowerBalanceTest, EachForItself)
+// Batches that hold too much or too little light as a whole agree when each gets what it misses.
+TEST_F(PowerBalanceTest, EachGetsWhatItMisses)
 {
   const auto light = [](int batch) { return 0.3 + 0.01 * Off(batch); };
   const std::vector<double> scales = this->ScalesOf(this->Drawn(light, None));
   for (int batch = 0; batch < Batches; ++batch)
   {
     EXPECT_NEAR(scales[batch] * light(batch) * 52.0 / 12.0, 1.0, 1e-5) << batch;
+  }
+}
+
+// What is far from where most light is lost knows nothing of that: in the mean it is scaled as all
+// are, whatever batches hold elsewhere, and so are the sums; and each batch is in balance.
+TEST_F(PowerBalanceTest, MeansHaveNoBias)
+{
+  const auto light = [](int batch) { return 0.3 + 0.03 * Off(batch); };
+  std::vector<BatchState> batches = this->Drawn(light, None);
+  constexpr float dark = 1e-3F;
+  for (BatchState& batch : batches)
+  {
+    batch.Fluence[0] = dark;
+    batch.FluenceSum[0] = dark;
+  }
+  const PowerBalance balance = this->Balance();
+  const double common = 12.0 / (0.3 * (52.0 - 0.25) + dark * 0.25);
+  balance.ScaleLatest(balance.Of(batches), batches);
+  balance.ScaleSums(balance.Of(batches), batches);
+  double latest = 0.0;
+  double sum = 0.0;
+  for (const BatchState& batch : batches)
+  {
+    latest += batch.Fluence[0] / Batches;
+    sum += batch.FluenceSum[0] / Batches;
+  }
+  EXPECT_NEAR(latest, common * dark, 1e-5 * dark);
+  EXPECT_NEAR(sum, common * dark, 1e-5 * dark);
+  for (const PowerBalance::Powers& own : balance.Of(batches))
+  {
+    EXPECT_NEAR(own.Lost, 12.0, 1e-4);
   }
 }
 

@@ -153,8 +153,8 @@ TEST(VeilGather, UnitOfLengthPlaceAndBrightness)
   const auto compare = [&plain](const std::string& name, const SceneDescription& other,
                          double scale, const Vec3& offset, double times, double tolerance)
   {
-    const Solved a(plain, 0.1);
-    const Solved b(other, 0.1);
+    const Solved a(plain, 0.3);
+    const Solved b(other, 0.3);
     const SignMeasurement one = MeasureSign(*a.TheView, 0, HallEye, Observer{0.0});
     const SignMeasurement two = MeasureSign(*b.TheView, 0, scale * HallEye + offset, Observer{0.0});
     EXPECT_GT(one.Rays, 0U);
@@ -186,7 +186,7 @@ TEST(VeilGather, UnitOfLengthPlaceAndBrightness)
 TEST(VeilGather, MapHasSameBitsForAllThreads)
 {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
-  const Solved solved(DarkHall(1), 0.1);
+  const Solved solved(DarkHall(1), 0.3);
   FloorMapOptions options;
   options.FirstPlace = HallEye;
   options.PlacesX = 4;
