@@ -12,6 +12,9 @@ namespace smokevis
 namespace
 {
 
+/// How far before a plate places of it lie to which shadow rays lead, in tolerances of the shapes:
+/// a ray that grazes a wall in whose plane the plate lies must not run within rounding of that.
+constexpr double Lift = 10.0;
 /// Below this radius over distance a light is seen whole or not at all.
 constexpr double SmallRatio = 0.05;
 /// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so
@@ -72,12 +75,15 @@ bool LightSight::Small(const LightGroup& group, const Vec3& point)
 
 bool LightSight::Crossed(const LightGroup& group) const
 {
-  const auto place = [&](double u, double v)
-  { return group.At(u, v) + 10.0 * this->Shapes_.Tolerance() * group.Normal; };
-  const Vec3 middle = place(0.5, 0.5);
+  const Vec3 middle = this->Before(group, {0.5, 0.5});
   return std::any_of(CornerPlaces.begin(), CornerPlaces.end(),
     [&](const glm::dvec2& corner)
-    { return !this->Shapes_.Visible(middle, place(corner.x, corner.y)); });
+    { return !this->Shapes_.Visible(middle, this->Before(group, corner)); });
+}
+
+Vec3 LightSight::Before(const LightGroup& group, const glm::dvec2& place) const
+{
+  return group.At(place.x, place.y) + Lift * this->Shapes_.Tolerance() * group.Normal;
 }
 
 std::span<const glm::dvec2> LightSight::Lattice()
@@ -92,7 +98,7 @@ std::vector<bool> LightSight::Seen(
   lines.reserve(places.size());
   for (const glm::dvec2& place : places)
   {
-    lines.push_back({point, group.At(place.x, place.y)});
+    lines.push_back({point, this->Before(group, place)});
   }
   return this->Shapes_.Visible(lines);
 }

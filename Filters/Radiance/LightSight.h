@@ -52,6 +52,9 @@ public:
   static Sight OfSeen(const std::vector<bool>& seen);
 
 private:
+  /// A place right before the plate of a group.
+  Vec3 Before(const LightGroup& group, const glm::dvec2& place) const;
+
   const Geometry& Shapes_;
 };
 

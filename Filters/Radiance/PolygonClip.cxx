@@ -66,11 +66,16 @@ bool Holds(const FlatPolygon& polygon, const glm::dvec2& point)
 glm::dvec2 MiddleOf(const FlatPolygon& polygon)
 {
   glm::dvec2 sum(0.0);
-  for (const glm::dvec2& corner : polygon)
+  double area = 0.0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
   {
-    sum += corner;
+    const glm::dvec2 a = polygon[i - 1] - polygon[0];
+    const glm::dvec2 b = polygon[i] - polygon[0];
+    const double own = a.x * b.y - a.y * b.x;
+    sum += own * (a + b);
+    area += own;
   }
-  return sum / static_cast<double>(polygon.size());
+  return area != 0.0 ? polygon[0] + sum / (3.0 * area) : polygon[0];
 }
 
 } // namespace smokevis

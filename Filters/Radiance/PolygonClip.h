@@ -63,7 +63,7 @@ double AreaOf(const FlatPolygon& polygon);
 Vec3 AreaVector(const std::vector<Vec3>& polygon);
 /// Whether a point lies in a convex polygon, whichever way that turns.
 bool Holds(const FlatPolygon& polygon, const glm::dvec2& point);
-/// Mean of the corners.
+/// Centroid of a convex polygon; a corner of one without area.
 glm::dvec2 MiddleOf(const FlatPolygon& polygon);
 
 } // namespace smokevis

@@ -5,6 +5,8 @@
 #include "TestReport.h"
 
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -243,6 +245,33 @@ TEST(DegenerateShapes, NestedMeshes)
   SceneDescription nested = Room();
   nested.Grids.push_back(scenes::UniformSmoke({1.2, 0.6, 0.6}, {1.6, 1.0, 1.0}, {16, 16, 16}, 0.5));
   ExpectPlain("nested 1:8", nested);
+}
+
+// A black triangle far outside of a closed room, which makes the scene many times as large, changes
+// nothing but the random lines, although it makes shapes known less exactly: rays to a plate along
+// the wall that it hangs on do not run into that.
+TEST(DegenerateShapes, FarOutsideOfARoom)
+{
+  constexpr double tolerance = 0.01;
+  for (const std::uint64_t seed : {2U, 3U, 6U})
+  {
+    const scenes::RandomRoom room = scenes::MakeRandomRoom(seed);
+    report::Head("Random room " + std::to_string(seed) + ", a triangle 30 and 100 m off");
+    const auto measure = [&room](const SceneDescription& scene)
+    { return MeasureSign(*Solved(scene, tolerance).TheView, 0, room.Eye, Observer{0.0}); };
+    const SignMeasurement alone = measure(room.Description);
+    for (const double distance : {30.0, 100.0})
+    {
+      SceneDescription scene = room.Description;
+      scenes::AddRectangle(
+        scene.Surfaces, {-distance, 0.3 * distance, 0.0}, {0, 1, 0}, {0, 0, 1}, 1, 1, 0.0);
+      const SignMeasurement other = measure(scene);
+      report::Absolute("contrast", alone.Contrast, other.Contrast, 0.001,
+        std::hypot(alone.ContrastError, other.ContrastError));
+      report::Relative(
+        "luminance of dark bars", alone.UnlitLuminance, other.UnlitLuminance, tolerance);
+    }
+  }
 }
 
 } // namespace
