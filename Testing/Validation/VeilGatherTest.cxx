@@ -85,7 +85,7 @@ Spread SpreadOf(const std::vector<Estimate>& values)
 // takes the last mean free paths anew.
 TEST(VeilGather, DarkHall)
 {
-  constexpr int Seeds = 28;
+  constexpr int Seeds = 40;
   constexpr double FlatCells = 0.1;
   report::Head("Veil before a sign in the dark [cd/m2]");
   const Solved fine(DarkHall(2), 0.005, 99);
@@ -118,7 +118,7 @@ TEST(VeilGather, DarkHall)
   // The allowance for noise is not to grow with the noise.
   EXPECT_LT(anew.Deviation / std::sqrt(Seeds), 0.035 * truth.Mean);
   const auto meanOf = [](const Spread& spread) { return spread.Deviation / std::sqrt(Seeds); };
-  report::Relative("traced, mean of the seeds", truth.Mean, known.Mean, 2.0 * FlatCells,
+  report::Relative("traced, mean of the seeds", truth.Mean, known.Mean, FlatCells,
     std::hypot(truth.StandardError, meanOf(known)));
   report::Relative("gathered, mean of the seeds", truth.Mean, anew.Mean, FlatCells,
     std::hypot(truth.StandardError, meanOf(anew)));
