@@ -204,7 +204,7 @@ TEST(Calibration, WhiteRoomAndSootLong)
 // Where few lines bring what there is to see.
 TEST(Calibration, LongDarkRoomLong)
 {
-  CheckSeeds(OfLongRoom(), OtherSeeds, 200, 0.1, 0.005);
+  CheckSeeds(OfLongRoom(), OtherSeeds, 200, 0.03, 0.005);
   CheckSeeds(OfLongRoom(), OtherSeeds, 200, 0.01, 0.003);
 }
 
