@@ -43,6 +43,28 @@ SurfaceMesh Square(double z, double h = 1.0, bool up = true, const Vec3& offset 
 
 constexpr double Far = 1e3;
 
+/// Of a cube of 4 m around the origin.
+Vec3 AnyPlace(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  const double x = place(random);
+  const double y = place(random);
+  return {x, y, place(random)};
+}
+
+/// Quadrilaterals all over that cube.
+SurfaceMesh Scattered(int count, std::mt19937& random)
+{
+  SurfaceMesh mesh;
+  for (int i = 0; i < count; ++i)
+  {
+    const Vec3 corner = AnyPlace(random);
+    AddQuad(mesh, corner, corner + Vec3(0.7, 0.1, 0), corner + Vec3(0.6, 0.8, 0.2),
+      corner + Vec3(0, 0.7, 0.1));
+  }
+  return mesh;
+}
+
 TEST(Geometry, DistanceSideAndNormal)
 {
   const Geometry shapes(Square(0.0), {});
@@ -175,22 +197,14 @@ TEST(Geometry, OcclusionAndSight)
 // without length, and one from beyond what single precision reaches, among them.
 TEST(Geometry, ManyLinesAtOnce)
 {
-  SurfaceMesh shapes;
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-2.0, 2.0);
-  const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
-  for (int i = 0; i < 20; ++i)
-  {
-    const Vec3 corner = point();
-    AddQuad(shapes, corner, corner + Vec3(0.7, 0.1, 0), corner + Vec3(0.6, 0.8, 0.2),
-      corner + Vec3(0, 0.7, 0.1));
-  }
-  const Geometry geometry(shapes, Square(0.5, 0.4));
+  const Geometry geometry(Scattered(20, random), Square(0.5, 0.4));
   std::vector<LineOfSight> lines = {
     {Vec3(0.3), Vec3(0.3)}, {Vec3(1e30, 0, 0), Vec3(0.0)}, {Vec3(0, 0, 1), Vec3(0, 0, 0.5)}};
   for (int i = 0; i < 2000; ++i)
   {
-    lines.push_back({point(), point()});
+    const Vec3 from = AnyPlace(random);
+    lines.push_back({from, AnyPlace(random)});
   }
   const std::vector<bool> seen = geometry.Visible(lines);
   ASSERT_EQ(seen.size(), lines.size());
@@ -276,16 +290,9 @@ TEST(Geometry, LinesCutEdges)
 // shapes lie: single precision knows them by their place among each other.
 TEST(Geometry, EdgesInAnyUnitOfLength)
 {
-  SurfaceMesh mesh;
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-2.0, 2.0);
-  const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
-  for (int i = 0; i < 40; ++i)
-  {
-    const Vec3 corner = point();
-    AddQuad(mesh, corner, corner + Vec3(0.7, 0.1, 0), corner + Vec3(0.6, 0.8, 0.2),
-      corner + Vec3(0, 0.7, 0.1));
-  }
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const SurfaceMesh mesh = Scattered(40, random);
   const Geometry plain(mesh, {});
   for (const auto& [factor, offset] : {std::pair(1e3, 0.0), {1e-3, 0.0}, {1.0, 1e4}})
   {
@@ -301,8 +308,8 @@ TEST(Geometry, EdgesInAnyUnitOfLength)
       // Within some 1e-7 of an edge.
       const Vec3& corner = mesh.Points[4 * (i % 40)];
       const Vec3& next = mesh.Points[4 * (i % 40) + 1];
-      const Vec3 target = glm::mix(corner, next, 0.25 * place(random) + 0.5) + 1e-7 * point();
-      const Vec3 origin = point();
+      const Vec3 target = glm::mix(corner, next, share(random)) + 1e-7 * AnyPlace(random);
+      const Vec3 origin = AnyPlace(random);
       const Vec3 direction = glm::normalize(target - origin);
       const Hit a = plain.Intersect(origin, direction, 0.0, 20.0);
       const Hit b = moved.Intersect(factor * origin + Vec3(offset), direction, 0.0, factor * 20.0);

@@ -14,7 +14,7 @@ void ExpectMiddle(const FlatPolygon& polygon, const glm::dvec2& middle)
     << MiddleOf(polygon).x << " " << MiddleOf(polygon).y;
 }
 
-// That of a trapezoid lies (a + 2 b) / (a + b) / 3 of its height above the side b.
+// That of a trapezoid lies (2 a + b) / (a + b) / 3 of its height above the side b.
 TEST(PolygonClip, CentroidOfWhatIsLeft)
 {
   ExpectMiddle({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {1.0, 0.5});
