@@ -162,9 +162,10 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
         [&](double distance, double step)
         {
           const Vec3 point = origin + distance * direction;
-          const double fluence = near.Clear && field
-                                   ? field->Fluence(point, band)
-                                   : this->Direct_.Fluence(near.Index, point, near.Clear)[band];
+          const double fluence =
+            near.ClearBefore && field
+              ? field->Fluence(point, band)
+              : this->Direct_.Fluence(near.Index, point, near.ClearBefore)[band];
           sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
         });
   }

@@ -20,32 +20,49 @@ namespace
 constexpr std::uint64_t NearShadowWays = 256;
 constexpr std::uint64_t ClearWays = 64;
 constexpr double LeastHidden = 0.05;
+/// Corners of a cell are looked at slightly inside, since cells often end at walls: so far from its
+/// centre, in edges.
+constexpr double Inside = 0.49;
 
 } // namespace
 
-bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
+DirectLight::CellSight DirectLight::SightFrom(std::size_t light, std::int64_t cell) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   if (const CellPart* part = this->Scene_.Smoke().Parts().Find(cell))
   {
-    return std::all_of(part->Fine.begin(), part->Fine.end(),
+    const bool whole = std::all_of(part->Fine.begin(), part->Fine.end(),
       [&](const PartSample& sample)
       { return this->Sight_.OfAll(root, part->Centre + Vec3(sample.Offset)) == Sight::Whole; });
+    return whole ? CellSight::Whole : CellSight::Parted;
   }
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
-  // Slightly inside, since cells often end at walls.
+  // What lies behind a plane plate counts as what is right before it.
+  const double least = (0.5 - Inside) * LargestEdge(size);
+  CellSight sight = CellSight::Whole;
+  const auto before = [&](const Vec3& place)
+  {
+    const double height = glm::dot(place - root.Centre, root.Normal);
+    if (height >= least || !root.Plane())
+    {
+      return place;
+    }
+    sight = CellSight::Before;
+    return place + (least - height) * root.Normal;
+  };
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Vec3 shift(
-      corner & 1 ? 0.49 : -0.49, corner & 2 ? 0.49 : -0.49, corner & 4 ? 0.49 : -0.49);
-    if (this->Sight_.OfCorners(root, centre + shift * size) != Sight::Whole)
+    const Vec3 shift(corner & 1 ? Inside : -Inside, corner & 2 ? Inside : -Inside,
+      corner & 4 ? Inside : -Inside);
+    if (this->Sight_.OfCorners(root, before(centre + shift * size)) != Sight::Whole)
     {
-      return false;
+      return CellSight::Parted;
     }
   }
-  return this->Sight_.OfAll(root, centre) == Sight::Whole &&
-         this->ShownShare(light, cell, ClearWays) > 1.0 - LeastHidden;
+  const bool clear = this->Sight_.OfAll(root, before(centre)) == Sight::Whole &&
+                     this->ShownShare(light, cell, ClearWays) > 1.0 - LeastHidden;
+  return clear ? sight : CellSight::Parted;
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const
@@ -197,7 +214,7 @@ Spectrum DirectLight::SampledFluence(std::size_t light, const CellPart& part) co
       });
     if (inside.size() >= part.Fine.size())
     {
-      const bool clear = this->Clear(light, part.Number);
+      const bool clear = this->SightFrom(light, part.Number) == CellSight::Whole;
       for (const Vec3& point : inside)
       {
         add(point, 1.0 / static_cast<double>(inside.size()), clear);

@@ -78,7 +78,9 @@ NearLights::NearLights(const Scene& scene, bool coarse)
       const double edge = LargestEdge(smoke.CellSize(cell.Index));
       for (Light& light : cell.Lights)
       {
-        light.Clear = this->Direct_.Clear(light.Index, cell.Index);
+        const DirectLight::CellSight sight = this->Direct_.SightFrom(light.Index, cell.Index);
+        light.Clear = sight == DirectLight::CellSight::Whole;
+        light.ClearBefore = sight != DirectLight::CellSight::Parted;
         const LightGroup& root = lights.Root(light.Index);
         const double distance = root.Distance(smoke.CellCentre(cell.Index));
         light.Close = distance < CloseEdges * edge;
@@ -203,7 +205,7 @@ NearLights::Surroundings NearLights::FindCells(std::size_t light)
         this->Cells_.push_back({cell, {}, false});
       }
       this->Cells_[place].Lights.push_back(
-        {static_cast<std::uint32_t>(light), false, false, false});
+        {static_cast<std::uint32_t>(light), false, false, false, false});
       around.Reach = std::max(around.Reach, distance + 0.5 * glm::length(size));
       for (int axis = 0; axis < 3; ++axis)
       {

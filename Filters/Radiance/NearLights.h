@@ -26,8 +26,10 @@ public:
   struct Light
   {
     std::uint32_t Index = 0;
-    /// Whether the whole cell sees it unhidden.
+    /// Whether the whole cell sees it unhidden, and whether all of it does that lies before its
+    /// plate.
     bool Clear = false;
+    bool ClearBefore = false;
     /// Whether it is so close that its fluence varies much inside the cell.
     bool Close = false;
     /// Whether the light itself tells what it leaves there, for its plate touches the cell, or
