@@ -218,4 +218,27 @@ TEST(DirectLight, SteepLawsCloseToThePlate)
   }
 }
 
+// Cells before a plate see it whole; those that its plane goes through do so from what lies before
+// that, unless a post hides some of it; those behind it see nothing.
+TEST(DirectLight, SightFromCells)
+{
+  using CellSight = DirectLight::CellSight;
+  SceneDescription description;
+  description.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(3.0), {3, 3, 3}, 0.3)};
+  description.Emitters = {Square({1.5, 1.5, 1.4}, 0.5, 0)};
+  const auto sightFrom = [&description](const Vec3& place)
+  {
+    const Scene scene(description);
+    return DirectLight(scene).SightFrom(0, scene.Smoke().Locate(place));
+  };
+  EXPECT_EQ(sightFrom({1.5, 1.5, 2.5}), CellSight::Whole);
+  EXPECT_EQ(sightFrom({2.5, 1.5, 1.5}), CellSight::Before);
+  EXPECT_EQ(sightFrom({1.5, 1.5, 0.5}), CellSight::Parted);
+  scenes::AddRectangle(
+    description.Surfaces, {1.9, 1.3, 1.4}, {0.0, 0.4, 0.0}, {0.0, 0.0, 0.1}, 1, 1, 0.0);
+  EXPECT_EQ(sightFrom({1.5, 1.5, 2.5}), CellSight::Whole);
+  EXPECT_EQ(sightFrom({2.5, 1.5, 1.5}), CellSight::Parted);
+  EXPECT_EQ(sightFrom({0.5, 1.5, 1.5}), CellSight::Before);
+}
+
 } // namespace

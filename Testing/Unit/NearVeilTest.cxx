@@ -186,6 +186,37 @@ TEST(NearVeil, AlongAPanelOfBars)
   }
 }
 
+// Rays in cells that a panel's plane goes through, along it, up to it, and out from behind its
+// plane beside it: with nothing before it light is looked up; where a screen stands close before
+// the half of it, that is hidden.
+TEST(NearVeil, InCellsThatThePlaneGoesThrough)
+{
+  const std::vector<Vec3> plate = {{1.5, 1.5, 2}, {1.5, 2.5, 2}, {2.5, 2.5, 2}, {2.5, 1.5, 2}};
+  for (const bool hidden : {false, true})
+  {
+    for (const int cells : {5, 7, 15})
+    {
+      SceneDescription description = ThinSmokeWith(plate, 0.0, cells);
+      if (hidden)
+      {
+        scenes::AddRectangle(
+          description.Surfaces, {2.0, 1.4, 1.9}, {0.6, 0.0, 0.0}, {0.0, 1.2, 0.0}, 1, 1, 0.0);
+      }
+      const LightAlone lamp(description);
+      for (const double height : {0.02, 0.05, 0.2})
+      {
+        for (const double slope : {0.0, 0.1, -0.6})
+        {
+          const Vec3 direction = glm::normalize(Vec3(0.7, 0.4, slope));
+          const Vec3 origin = Vec3(1.63, 2.03, 2.0 - height) - 0.5 * direction;
+          EXPECT_NEAR(lamp.VeilOverSum(origin, direction, 0.6), 1.0, 0.02)
+            << hidden << ' ' << cells << ' ' << height << ' ' << slope;
+        }
+      }
+    }
+  }
+}
+
 // Lamps with beams, close to them and below.
 TEST(NearVeil, UnderBeams)
 {
