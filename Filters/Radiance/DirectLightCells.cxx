@@ -23,6 +23,9 @@ constexpr double LeastHidden = 0.05;
 /// Corners of a cell are looked at slightly inside, since cells often end at walls: so far from its
 /// centre, in edges.
 constexpr double Inside = 0.49;
+/// What lies less high above a light's plane, in the cell's extent along its normal, counts as
+/// behind: less than corners of a cell that ends at the plane, where rounding would decide.
+constexpr double LeastHeight = 0.0037;
 
 } // namespace
 
@@ -39,7 +42,7 @@ DirectLight::CellSight DirectLight::SightFrom(std::size_t light, std::int64_t ce
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
   // What lies behind a plane plate counts as what is right before it.
-  const double least = (0.5 - Inside) * LargestEdge(size);
+  const double least = LeastHeight * glm::dot(size, glm::abs(root.Normal));
   CellSight sight = CellSight::Whole;
   const auto before = [&](const Vec3& place)
   {

@@ -351,8 +351,9 @@ Geometry::Geometry(
     return;
   }
   const double size = std::max(sceneSize, glm::length(upper - lower));
+  this->Rounding_ = RoundingShare * size;
   this->Tolerance_ = std::max(
-    RelativeTolerance * (coreSize > 0.0 ? std::min(coreSize, size) : size), RoundingShare * size);
+    RelativeTolerance * (coreSize > 0.0 ? std::min(coreSize, size) : size), this->Rounding_);
   const SinglePrecision units(0.5 * (lower + upper), size);
   const TriangleTree::Device device = TriangleTree::NewDevice();
   this->Surfaces_ = TriangleTree(device, surfaces, false, units, this->Tolerance_);

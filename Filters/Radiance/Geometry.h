@@ -174,6 +174,8 @@ public:
   bool Empty() const { return this->Surfaces_.Empty() && this->Emitters_.Empty(); }
   /// Distance within which two shapes count as touching [m].
   double Tolerance() const { return this->Tolerance_; }
+  /// To what distance places are known, in single precision [m].
+  double Rounding() const { return this->Rounding_; }
   /// Triangles that are there to be hit, as indices into their mesh; Hit::Triangle is a place in
   /// this list.
   const std::vector<std::size_t>& SurfaceTriangles() const { return this->Surfaces_.Triangles(); }
@@ -235,6 +237,7 @@ private:
   TriangleTree Surfaces_, Emitters_;
   std::vector<std::uint32_t> Bodies_;
   double Tolerance_ = 0.0;
+  double Rounding_ = 0.0;
 };
 
 } // namespace smokevis

@@ -22,6 +22,8 @@ namespace
 /// A light whose area is a larger share of the surface of the box around the scene is left to the
 /// random lines: one line in fifty meets it.
 constexpr double LargeLight = 0.05;
+/// Share of a sign's shorter edge to which places must be known.
+constexpr double LeastKnownShare = 0.25;
 
 void CheckDescription(const SceneDescription& description)
 {
@@ -104,6 +106,26 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
   return mesh;
 }
 
+/// Throws Error where a sign is so small against all that lies around it that rays cannot tell it
+/// from what it hangs on.
+void CheckSigns(const std::vector<Sign>& signs, double sceneSize, const Geometry& shapes)
+{
+  for (const Sign& sign : signs)
+  {
+    const double edge = std::min(glm::length(sign.Corners[1] - sign.Corners[0]),
+      glm::length(sign.Corners[3] - sign.Corners[0]));
+    if (shapes.Rounding() > LeastKnownShare * edge)
+    {
+      throw Error("sign " + std::to_string(sign.Id),
+        "it is " + std::to_string(edge) + " m wide or high, in a scene of " +
+          std::to_string(sceneSize) + " m, in which rays know places to " +
+          std::to_string(shapes.Rounding()) + " m",
+        "Leave out surfaces and emitters that lie far from the smoke, and check the units of "
+        "length");
+    }
+  }
+}
+
 /// Leaves one of triangles with the same corners.
 void RemoveRepeats(std::vector<Triangle>& triangles)
 {
@@ -178,6 +200,7 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   {
     this->FindShapes(glm::length(size));
   }
+  CheckSigns(this->Lights_.Signs(), glm::length(size), *this->Shapes_);
   this->Lights_.MarkCrossed(LightSight(*this->Shapes_));
   if (!this->Smoke_.Empty())
   {

@@ -274,4 +274,23 @@ TEST(DegenerateShapes, FarOutsideOfARoom)
   }
 }
 
+// So far outside that rays no longer tell a sign from its wall: an error that says so, not a map
+// without the sign.
+TEST(DegenerateShapes, TooFarOutsideOfARoom)
+{
+  SceneDescription scene = scenes::MakeRandomRoom(2).Description;
+  scenes::AddRectangle(scene.Surfaces, {-1e6, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1}, 1, 1, 0.0);
+  try
+  {
+    const Scene made(scene);
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("sign "), std::string::npos) << text;
+    EXPECT_NE(text.find("Leave out"), std::string::npos) << text;
+  }
+}
+
 } // namespace
