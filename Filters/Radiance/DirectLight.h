@@ -40,17 +40,12 @@ public:
   /// Fluence at a point from one light (index into EmitterSet::Lights) [lx].
   /// @param clear whether it is known that nothing hides the light from there
   Spectrum Fluence(std::size_t light, const Vec3& point, bool clear = false) const;
-  /// How much of a smoke cell sees the whole of a light.
-  enum class CellSight
-  {
-    /// Not all that lies before its plate.
-    Parted,
-    /// All that lies before its plate; the rest lies behind that.
-    Before,
-    Whole
-  };
-  /// The same as the corners and the centre of a cell, or the samples of its part, tell.
-  CellSight SightFrom(std::size_t light, std::int64_t cell) const;
+  /// Whether the corners and the centre of a smoke cell, or the samples of its part, all see the
+  /// whole of a light.
+  bool Clear(std::size_t light, std::int64_t cell) const;
+  /// Whether nothing reaches into the convex hull of a light's plane plate and what lies before it
+  /// of a smoke cell; not where that is no box.
+  bool ClearBefore(std::size_t light, std::int64_t cell) const;
   /// Illuminance at a point of a surface with a unit normal [lx].
   Spectrum Illuminance(std::size_t light, const Vec3& point, const Vec3& normal) const;
   /// Mean fluence over a part of a cell that walls cut [lx].

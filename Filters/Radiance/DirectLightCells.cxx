@@ -6,6 +6,7 @@
 #include "Scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace smokevis
@@ -23,49 +24,61 @@ constexpr double LeastHidden = 0.05;
 /// Corners of a cell are looked at slightly inside, since cells often end at walls: so far from its
 /// centre, in edges.
 constexpr double Inside = 0.49;
-/// What lies less high above a light's plane, in the cell's extent along its normal, counts as
-/// behind: less than corners of a cell that ends at the plane, where rounding would decide.
+/// Of a cell that a light's plane goes through, what lies before that begins so far from it, in
+/// edges.
 constexpr double LeastHeight = 0.0037;
+/// Cosine of the angle between a plate's normal and an axis above which it lies along that.
+constexpr double AlongAxis = 1.0 - 1e-9;
 
 } // namespace
 
-DirectLight::CellSight DirectLight::SightFrom(std::size_t light, std::int64_t cell) const
+bool DirectLight::Clear(std::size_t light, std::int64_t cell) const
 {
   const LightGroup& root = this->Scene_.Lights().Root(light);
   if (const CellPart* part = this->Scene_.Smoke().Parts().Find(cell))
   {
-    const bool whole = std::all_of(part->Fine.begin(), part->Fine.end(),
+    return std::all_of(part->Fine.begin(), part->Fine.end(),
       [&](const PartSample& sample)
       { return this->Sight_.OfAll(root, part->Centre + Vec3(sample.Offset)) == Sight::Whole; });
-    return whole ? CellSight::Whole : CellSight::Parted;
   }
   const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
   const Vec3 size = this->Scene_.Smoke().CellSize(cell);
-  // What lies behind a plane plate counts as what is right before it.
-  const double least = LeastHeight * glm::dot(size, glm::abs(root.Normal));
-  CellSight sight = CellSight::Whole;
-  const auto before = [&](const Vec3& place)
-  {
-    const double height = glm::dot(place - root.Centre, root.Normal);
-    if (height >= least || !root.Plane())
-    {
-      return place;
-    }
-    sight = CellSight::Before;
-    return place + (least - height) * root.Normal;
-  };
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Vec3 shift(corner & 1 ? Inside : -Inside, corner & 2 ? Inside : -Inside,
-      corner & 4 ? Inside : -Inside);
-    if (this->Sight_.OfCorners(root, before(centre + shift * size)) != Sight::Whole)
+    const Vec3 shift(
+      corner & 1 ? Inside : -Inside, corner & 2 ? Inside : -Inside, corner & 4 ? Inside : -Inside);
+    if (this->Sight_.OfCorners(root, centre + shift * size) != Sight::Whole)
     {
-      return CellSight::Parted;
+      return false;
     }
   }
-  const bool clear = this->Sight_.OfAll(root, before(centre)) == Sight::Whole &&
-                     this->ShownShare(light, cell, ClearWays) > 1.0 - LeastHidden;
-  return clear ? sight : CellSight::Parted;
+  return this->Sight_.OfAll(root, centre) == Sight::Whole &&
+         this->ShownShare(light, cell, ClearWays) > 1.0 - LeastHidden;
+}
+
+bool DirectLight::ClearBefore(std::size_t light, std::int64_t cell) const
+{
+  const LightGroup& root = this->Scene_.Lights().Root(light);
+  if (!root.Plane() || this->Scene_.Smoke().Parts().Find(cell))
+  {
+    return false;
+  }
+  const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
+  const Vec3 size = this->Scene_.Smoke().CellSize(cell);
+  Box before{centre - Inside * size, centre + Inside * size};
+  // A plane askew to the cell leaves no box before it.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double towards = root.Normal[axis];
+    if (std::abs(towards) > AlongAxis)
+    {
+      const double least = root.Centre[axis] + std::copysign(LeastHeight * size[axis], towards);
+      double& end = towards > 0.0 ? before.Lower[axis] : before.Upper[axis];
+      end = towards > 0.0 ? std::max(end, least) : std::min(end, least);
+    }
+  }
+  return glm::all(glm::lessThan(before.Lower, before.Upper)) &&
+         this->Scene_.Shapes().Free({root.Corners, root.Normal, before});
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const
@@ -217,7 +230,7 @@ Spectrum DirectLight::SampledFluence(std::size_t light, const CellPart& part) co
       });
     if (inside.size() >= part.Fine.size())
     {
-      const bool clear = this->SightFrom(light, part.Number) == CellSight::Whole;
+      const bool clear = this->Clear(light, part.Number);
       for (const Vec3& point : inside)
       {
         add(point, 1.0 / static_cast<double>(inside.size()), clear);

@@ -78,9 +78,8 @@ NearLights::NearLights(const Scene& scene, bool coarse)
       const double edge = LargestEdge(smoke.CellSize(cell.Index));
       for (Light& light : cell.Lights)
       {
-        const DirectLight::CellSight sight = this->Direct_.SightFrom(light.Index, cell.Index);
-        light.Clear = sight == DirectLight::CellSight::Whole;
-        light.ClearBefore = sight != DirectLight::CellSight::Parted;
+        light.Clear = this->Direct_.Clear(light.Index, cell.Index);
+        light.ClearBefore = light.Clear || this->Direct_.ClearBefore(light.Index, cell.Index);
         const LightGroup& root = lights.Root(light.Index);
         const double distance = root.Distance(smoke.CellCentre(cell.Index));
         light.Close = distance < CloseEdges * edge;

@@ -219,26 +219,37 @@ TEST(DirectLight, SteepLawsCloseToThePlate)
 }
 
 // Cells before a plate see it whole; those that its plane goes through do so from what lies before
-// that, unless a post hides some of it; those behind it see nothing.
-TEST(DirectLight, SightFromCells)
+// that, unless a post hides some of it, however thin; those behind it see nothing. Before a plate
+// askew to the cells that is not told.
+TEST(DirectLight, ClearCells)
 {
-  using CellSight = DirectLight::CellSight;
   SceneDescription description;
   description.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(3.0), {3, 3, 3}, 0.3)};
   description.Emitters = {Square({1.5, 1.5, 1.4}, 0.5, 0)};
-  const auto sightFrom = [&description](const Vec3& place)
+  const auto clear = [&description](const Vec3& place)
   {
     const Scene scene(description);
-    return DirectLight(scene).SightFrom(0, scene.Smoke().Locate(place));
+    const std::int64_t cell = scene.Smoke().Locate(place);
+    const DirectLight direct(scene);
+    return std::pair(direct.Clear(0, cell), direct.ClearBefore(0, cell));
   };
-  EXPECT_EQ(sightFrom({1.5, 1.5, 2.5}), CellSight::Whole);
-  EXPECT_EQ(sightFrom({2.5, 1.5, 1.5}), CellSight::Before);
-  EXPECT_EQ(sightFrom({1.5, 1.5, 0.5}), CellSight::Parted);
+  const std::pair whole(true, true);
+  const std::pair before(false, true);
+  const std::pair hidden(false, false);
+  EXPECT_EQ(clear({1.5, 1.5, 2.5}), whole);
+  EXPECT_EQ(clear({2.5, 1.5, 1.5}), before);
+  EXPECT_EQ(clear({1.5, 1.5, 0.5}), hidden);
   scenes::AddRectangle(
-    description.Surfaces, {1.9, 1.3, 1.4}, {0.0, 0.4, 0.0}, {0.0, 0.0, 0.1}, 1, 1, 0.0);
-  EXPECT_EQ(sightFrom({1.5, 1.5, 2.5}), CellSight::Whole);
-  EXPECT_EQ(sightFrom({2.5, 1.5, 1.5}), CellSight::Parted);
-  EXPECT_EQ(sightFrom({0.5, 1.5, 1.5}), CellSight::Before);
+    description.Surfaces, {1.9, 1.5, 1.4}, {0.0, 0.001, 0.0}, {0.0, 0.0, 0.02}, 1, 1, 0.0);
+  EXPECT_TRUE(clear({1.5, 1.5, 2.5}).first);
+  EXPECT_EQ(clear({2.5, 1.5, 1.5}), hidden);
+  EXPECT_EQ(clear({0.5, 1.5, 1.5}), before);
+  description.Surfaces = {};
+  for (Vec3& vertex : description.Emitters[0].Vertices)
+  {
+    vertex.z += 0.05 * (vertex.x - 1.5);
+  }
+  EXPECT_EQ(clear({2.5, 1.5, 1.5}), hidden);
 }
 
 } // namespace
