@@ -162,10 +162,9 @@ double DirectField::NearVeil(std::int64_t cell, const Vec3& origin, const Vec3& 
         [&](double distance, double step)
         {
           const Vec3 point = origin + distance * direction;
-          const double fluence =
-            near.ClearBefore && field
-              ? field->Fluence(point, band)
-              : this->Direct_.Fluence(near.Index, point, near.ClearBefore)[band];
+          const double fluence = near.ClearBefore && field ? field->Fluence(point, band)
+                                                           : this->Direct_.Fluence(near.Index,
+                                                               point, near.ClearBefore)[band];
           sum += fluence * step * extinction * std::exp(-extinction * (distance - begin));
         });
   }
