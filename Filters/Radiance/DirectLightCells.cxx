@@ -25,8 +25,9 @@ constexpr double LeastHidden = 0.05;
 /// centre, in edges.
 constexpr double Inside = 0.49;
 /// Of a cell that a light's plane goes through, what lies before that begins so far from it, in
-/// edges.
+/// edges, and at least so many tolerances of the shapes.
 constexpr double LeastHeight = 0.0037;
+constexpr double LeastHeights = 2.0;
 /// Cosine of the angle between a plate's normal and an axis above which it lies along that.
 constexpr double AlongAxis = 1.0 - 1e-9;
 
@@ -63,20 +64,23 @@ bool DirectLight::ClearBefore(std::size_t light, std::int64_t cell) const
   {
     return false;
   }
-  const Vec3 centre = this->Scene_.Smoke().CellCentre(cell);
-  const Vec3 size = this->Scene_.Smoke().CellSize(cell);
-  Box before{centre - Inside * size, centre + Inside * size};
+  Box before = this->Scene_.Smoke().BoxOf(cell);
+  const Vec3 size = before.Size();
+  const double least = LeastHeights * this->Scene_.Shapes().Tolerance();
   // A plane askew to the cell leaves no box before it.
   for (int axis = 0; axis < 3; ++axis)
   {
     const double towards = root.Normal[axis];
     if (std::abs(towards) > AlongAxis)
     {
-      const double least = root.Centre[axis] + std::copysign(LeastHeight * size[axis], towards);
+      const double begin =
+        root.Centre[axis] + std::copysign(std::max(LeastHeight * size[axis], least), towards);
       double& end = towards > 0.0 ? before.Lower[axis] : before.Upper[axis];
-      end = towards > 0.0 ? std::max(end, least) : std::min(end, least);
+      end = towards > 0.0 ? std::max(end, begin) : std::min(end, begin);
     }
   }
+  const Vec3 inset = (0.5 - Inside) * before.Size();
+  before = {before.Lower + inset, before.Upper - inset};
   return glm::all(glm::lessThan(before.Lower, before.Upper)) &&
          this->Scene_.Shapes().Free({root.Corners, root.Normal, before});
 }

@@ -174,7 +174,7 @@ public:
   bool Empty() const { return this->Surfaces_.Empty() && this->Emitters_.Empty(); }
   /// Distance within which two shapes count as touching [m].
   double Tolerance() const { return this->Tolerance_; }
-  /// To what distance places are known, in single precision [m].
+  /// How closely single precision knows places; 0 where there are no shapes [m].
   double Rounding() const { return this->Rounding_; }
   /// Triangles that are there to be hit, as indices into their mesh; Hit::Triangle is a place in
   /// this list.

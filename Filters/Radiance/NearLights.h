@@ -26,9 +26,9 @@ public:
   struct Light
   {
     std::uint32_t Index = 0;
-    /// Whether the whole cell sees it unhidden, and whether all of it does that lies before its
-    /// plate.
+    /// Whether the whole cell sees it unhidden, as some ways tell.
     bool Clear = false;
+    /// The same, or nothing at all hides it from what lies before its plate of the cell.
     bool ClearBefore = false;
     /// Whether it is so close that its fluence varies much inside the cell.
     bool Close = false;

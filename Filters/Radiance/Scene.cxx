@@ -108,7 +108,7 @@ SurfaceMesh MeshOf(const std::vector<EmitterCell>& cells)
 
 /// Throws Error where a sign is so small against all that lies around it that rays cannot tell it
 /// from what it hangs on.
-void CheckSigns(const std::vector<Sign>& signs, double sceneSize, const Geometry& shapes)
+void CheckSigns(const std::vector<Sign>& signs, const Geometry& shapes)
 {
   for (const Sign& sign : signs)
   {
@@ -117,11 +117,10 @@ void CheckSigns(const std::vector<Sign>& signs, double sceneSize, const Geometry
     if (shapes.Rounding() > LeastKnownShare * edge)
     {
       throw Error("sign " + std::to_string(sign.Id),
-        "it is " + std::to_string(edge) + " m wide or high, in a scene of " +
-          std::to_string(sceneSize) + " m, in which rays know places to " +
-          std::to_string(shapes.Rounding()) + " m",
-        "Leave out surfaces and emitters that lie far from the smoke, and check the units of "
-        "length");
+        "it is " + std::to_string(edge) + " m wide or high, and rays know places to " +
+          std::to_string(shapes.Rounding()) + " m only, so large is the scene",
+        "Leave out surfaces and emitters that lie far from the smoke, or the sign, and check the "
+        "units of length");
     }
   }
 }
@@ -200,7 +199,7 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
   {
     this->FindShapes(glm::length(size));
   }
-  CheckSigns(this->Lights_.Signs(), glm::length(size), *this->Shapes_);
+  CheckSigns(this->Lights_.Signs(), *this->Shapes_);
   this->Lights_.MarkCrossed(LightSight(*this->Shapes_));
   if (!this->Smoke_.Empty())
   {

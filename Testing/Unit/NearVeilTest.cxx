@@ -192,15 +192,15 @@ TEST(NearVeil, AlongAPanelOfBars)
 TEST(NearVeil, InCellsThatThePlaneGoesThrough)
 {
   const std::vector<Vec3> plate = {{1.5, 1.5, 2}, {1.5, 2.5, 2}, {2.5, 2.5, 2}, {2.5, 1.5, 2}};
-  for (const bool hidden : {false, true})
+  for (const double hidden : {0.0, 0.034, 0.6})
   {
     for (const int cells : {5, 7, 15})
     {
       SceneDescription description = ThinSmokeWith(plate, 0.0, cells);
-      if (hidden)
+      if (hidden > 0.0)
       {
         scenes::AddRectangle(
-          description.Surfaces, {2.0, 1.4, 1.9}, {0.6, 0.0, 0.0}, {0.0, 1.2, 0.0}, 1, 1, 0.0);
+          description.Surfaces, {2.0, 1.4, 1.97}, {hidden, 0.0, 0.0}, {0.0, 1.2, 0.0}, 1, 1, 0.0);
       }
       const LightAlone lamp(description);
       for (const double height : {0.02, 0.05, 0.2})
