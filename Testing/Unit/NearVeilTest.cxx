@@ -187,8 +187,8 @@ TEST(NearVeil, AlongAPanelOfBars)
 }
 
 // Rays in cells that a panel's plane goes through, along it, up to it, and out from behind its
-// plane beside it: with nothing before it light is looked up; where a screen stands close before
-// the half of it, that is hidden.
+// plane beside it: with nothing before it light is looked up; where a rod or a screen stands close
+// before it, some or half of it is hidden.
 TEST(NearVeil, InCellsThatThePlaneGoesThrough)
 {
   const std::vector<Vec3> plate = {{1.5, 1.5, 2}, {1.5, 2.5, 2}, {2.5, 2.5, 2}, {2.5, 1.5, 2}};
