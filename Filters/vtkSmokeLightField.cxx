@@ -184,11 +184,12 @@ void vtkSmokeLightField::WarnOfCoarseCells(const smokevis::LightField& field)
 {
   if (static_cast<double>(field.CoarseCells) > TolerableShare * static_cast<double>(field.Cells))
   {
-    vtkWarningMacro(<< "Smoke: " << field.CoarseCells << " of " << field.Cells
-                    << " cells are so thick that light is scattered more than once on a mean way "
-                    << "through them. What lies in the dark behind several of them may come out "
-                    << "many times too bright, which no error bar tells: give smoke on a finer "
-                    << "grid.");
+    vtkWarningMacro(
+      << "Smoke: " << field.CoarseCells << " of " << field.Cells
+      << " cells are so thick that light is scattered more than once on a mean way "
+      << "through them. What lies in the dark behind several of them may come out "
+      << "a third too bright, and many times too bright where they are thicker than "
+      << "four mean free paths, which no error bar tells: give smoke on a finer grid.");
   }
 }
 

@@ -13,7 +13,7 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   mkdir -p "$tbb/lists/partial" "$tbb/sources.list.d" "$tbb/lib"
   # Sources come from where the machine's packages do.
   for list in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
-    [ ! -e "$list" ] || sed -n 's/^deb /deb-src /p' "$list" >> "$tbb/sources.list.d/packages.list"
+    [ ! -e "$list" ] || sed -n 's/^deb[[:space:]]/deb-src /p' "$list" >> "$tbb/sources.list.d/packages.list"
   done
   for list in /etc/apt/sources.list.d/*.sources; do
     [ ! -e "$list" ] || sed 's/^Types:.*/Types: deb-src/' "$list" > "$tbb/sources.list.d/${list##*/}"

@@ -195,13 +195,15 @@ void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) cons
   for (const SourceShape::Shaped& shaped : this->Shape_.Cells())
   {
     LineTallies::Cell& cell = tallies.Cells[shaped.Index];
-    const float source =
-      this->Scatter_ * (state.Fluence[shaped.Index] +
-                         (shaped.DirectVaries ? 0.0F : this->DirectFluence_[shaped.Index]));
-    double offset = 0.0;
+    const bool steep = this->Shape_.Steep(shaped.Index);
+    const float scale =
+      steep ? 1.0F
+            : this->Scatter_ * (state.Fluence[shaped.Index] +
+                                 (shaped.DirectVaries ? 0.0F : this->DirectFluence_[shaped.Index]));
+    double offset = shaped.Middle;
     for (int axis = 0; axis < 3; ++axis)
     {
-      cell.Slope[axis] = source * shaped.Change[axis];
+      cell.Slope[axis] = scale * shaped.Change[axis];
       offset -= cell.Slope[axis] * shaped.Place[axis];
     }
     cell.Offset = static_cast<float>(offset);

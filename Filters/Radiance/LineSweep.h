@@ -37,7 +37,8 @@ struct LineTallies
     /// Radiance of both directions that is expected along a line, and the tally of what differs.
     float Expected, Fluence;
     /// Slopes of the luminance along the axes [cd/m3], and what it differs by at the smoke's lower
-    /// corner, continued [cd/m2].
+    /// corner, continued [cd/m2]; where it is steep (SourceShape), slopes of the logarithm of what
+    /// varies [1/m], and that logarithm over the mean there.
     SourceShape::Slope Slope;
     float Offset;
 
@@ -123,6 +124,9 @@ private:
   /// Takes the tallies of the cells into a state.
   /// @param share of a whole sweep's lines that were traced
   void TakeFluence(const LineTallies& tallies, float share, BatchState& state) const;
+  /// Part of a steep cell's source that is even along each piece of a line: what the cell emits,
+  /// and direct light where it is known inside the cell.
+  float EvenSource(std::int64_t cell, bool directVaries) const;
   /// Radiance that leaves a side of a patch along a line.
   float Outgoing(const BatchState& state, const Hit& hit, const Vec3& direction) const;
 

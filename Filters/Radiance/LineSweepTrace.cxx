@@ -2,6 +2,7 @@
 #include "LineSweep.h"
 
 #include "DirectField.h"
+#include "ExponentialSource.h"
 #include "LineBuffers.h"
 #include "LinePieces.h"
 
@@ -35,6 +36,12 @@ float LineSweep::Outgoing(const BatchState& state, const Hit& hit, const Vec3& d
   return radiance;
 }
 
+float LineSweep::EvenSource(std::int64_t cell, bool directVaries) const
+{
+  return (this->Emission_.empty() ? 0.0F : this->Emission_[cell]) +
+         (directVaries ? this->Scatter_ * this->DirectFluence_[cell] : 0.0F);
+}
+
 void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line,
   LineTallies& tallies, LineBuffers& buffers) const
 {
@@ -66,6 +73,8 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   {
     const LineTallies::Cell& own = tallies.Cells[cell];
     const float slope = own.Slope[0] * along[0] + own.Slope[1] * along[1] + own.Slope[2] * along[2];
+    const bool steep = this->Shape_.Steep(cell);
+    const float rest = steep ? own.Source - this->EvenSource(cell, own.DirectVaries()) : 0.0F;
     double at = begin;
     const auto addPart = [&](double part, float source)
     {
@@ -82,16 +91,27 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
       const float escape =
         depth < 0.01F ? 1.0F - depth * (0.5F - depth * (1.0F / 6.0F - depth * (1.0F / 24.0F)))
                       : (1.0F - transmittance) / depth;
-      float tilt = 0.0F;
+      float shape = 0.0F;
       if (!flat)
       {
         const Vec3 middle = start + (at + 0.5 * part) * direction;
-        source += own.Offset + own.Slope[0] * static_cast<float>(middle.x) +
-                  own.Slope[1] * static_cast<float>(middle.y) +
-                  own.Slope[2] * static_cast<float>(middle.z);
+        shape = own.Offset + own.Slope[0] * static_cast<float>(middle.x) +
+                own.Slope[1] * static_cast<float>(middle.y) +
+                own.Slope[2] * static_cast<float>(middle.z);
         at += part;
-        tilt = slope * size * SourceShape::Tilt(depth, escape);
       }
+      if (steep)
+      {
+        const float even = source - rest;
+        const float held = rest * std::exp(shape);
+        const ExponentialSource sent(depth, transmittance, escape, slope * size);
+        buffers.Pieces.push_back({cell, size, even + held * sent.Inside, transmittance, escape,
+          depth * escape * even + 0.5F * held * (sent.Ahead + sent.Back),
+          0.5F * held * (sent.Ahead - sent.Back), 0.0F});
+        return;
+      }
+      source += shape;
+      const float tilt = flat ? 0.0F : slope * size * SourceShape::Tilt(depth, escape);
       // Where the depth is next to nothing, 1 - exp(-tau) would round to 0.
       buffers.Pieces.push_back(
         {cell, size, source, transmittance, escape, depth * escape * source, tilt, 0.0F});

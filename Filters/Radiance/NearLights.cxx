@@ -203,8 +203,7 @@ NearLights::Surroundings NearLights::FindCells(std::size_t light)
         place = static_cast<std::int32_t>(this->Cells_.size());
         this->Cells_.push_back({cell, {}, false});
       }
-      this->Cells_[place].Lights.push_back(
-        {static_cast<std::uint32_t>(light), false, false, false, false});
+      this->Cells_[place].Lights.push_back(Light{.Index = static_cast<std::uint32_t>(light)});
       around.Reach = std::max(around.Reach, distance + 0.5 * glm::length(size));
       for (int axis = 0; axis < 3; ++axis)
       {

@@ -1,7 +1,9 @@
 #include "SourceShape.h"
 
 #include "CellLoops.h"
+#include "CellShape.h"
 #include "DirectField.h"
+#include "ExponentialMean.h"
 #include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -25,6 +28,11 @@ namespace
 constexpr double ThinnestDepth = 0.05;
 /// Soot of a lower albedo is looked at as if it had this one: what little it sends on is the veil.
 constexpr double LeastAlbedo = 0.5;
+/// Change of a source from the middle of a cell to its corner, over its mean, above which it is
+/// taken to be exponential. A linear one would be below 0 somewhere above 1.
+constexpr float SteepChange = 0.5F;
+/// Optical depth across a cell below which linear sources do.
+constexpr double ThinnestSteep = 0.5;
 
 /// By how much the logarithm of a field rises; the quotient of what is next to nothing and of much
 /// need not fit single precision.
@@ -71,8 +79,11 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
         const std::int64_t cell = shaped[i];
-        this->Cells_[i] = {
-          cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band), Slope{}};
+        // Only over a whole box the mean of an exponential is known.
+        const bool mayBeSteep =
+          extinction[cell] * smoke.MeanChord(cell) > ThinnestSteep && !smoke.Parts().Find(cell);
+        this->Cells_[i] = {cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band),
+          mayBeSteep, Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         Measures& own = this->Measures_[i];
         for (int axis = 0; axis < 3; ++axis)
@@ -105,6 +116,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
   }
   const std::size_t cells = batches.front().FluenceSum.size();
   std::vector<float> means(cells);
+  std::vector<char> steep(cells);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 4096),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
@@ -142,11 +154,28 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
               : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];
         }
-        // Nowhere below 0.
-        const float scale = change > 1.0F ? 1.0F / change : 1.0F;
-        this->Cells_[i].Change = {scale * slope[0], scale * slope[1], scale * slope[2]};
+        Shaped& shaped = this->Cells_[i];
+        shaped.Middle = 0.0F;
+        if (change > SteepChange && shaped.MayBeSteep)
+        {
+          steep[cell] = 1;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            const float most = static_cast<float>(0.5 * CellShape::SteepestChange) / own.Half[axis];
+            slope[axis] = std::clamp(slope[axis], -most, most);
+            shaped.Middle -= static_cast<float>(LogarithmOfMean(slope[axis] * own.Half[axis]));
+          }
+        }
+        else
+        {
+          const float scale = change > 1.0F ? 1.0F / change : 1.0F;
+          slope = {scale * slope[0], scale * slope[1], scale * slope[2]};
+        }
+        shaped.Change = slope;
       }
     });
+  const bool any = std::find(steep.begin(), steep.end(), 1) != steep.end();
+  this->Steep_ = any ? std::move(steep) : std::vector<char>();
 }
 
 } // namespace smokevis

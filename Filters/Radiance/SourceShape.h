@@ -41,7 +41,8 @@ public:
 
   /// Whether no cell is thick enough for its shape to matter.
   bool Flat() const { return this->Cells_.empty(); }
-  /// Relative change of a cell's source along each axis [1/m].
+  /// Change of a cell's source along each axis over its mean, or of its logarithm where it is steep
+  /// [1/m].
   using Slope = std::array<float, 3>;
   /// A cell whose source has a shape.
   struct Shaped
@@ -51,9 +52,15 @@ public:
     Vec3 Place{0.0};
     /// Whether direct light is known inside the cell: the shape is that of the rest.
     bool DirectVaries = false;
+    /// Whether it may be steep.
+    bool MayBeSteep = false;
     Slope Change{};
+    /// Logarithm of a steep source over its mean, in the middle of the cell.
+    float Middle = 0.0F;
   };
   const std::vector<Shaped>& Cells() const { return this->Cells_; }
+  /// Whether a cell's source is exponential.
+  bool Steep(std::int64_t cell) const { return !this->Steep_.empty() && this->Steep_[cell] != 0; }
   /// What a source adds that rises along a piece of a ray by 1 and is 0 in its middle, at the
   /// piece's end; at its beginning, looking along the ray, as much is missing.
   /// @param depth of the piece
@@ -84,6 +91,8 @@ private:
   const float* DirectFluence_ = nullptr;
   std::vector<Shaped> Cells_;
   std::vector<Measures> Measures_;
+  /// Empty where no cell's source is.
+  std::vector<char> Steep_;
 };
 
 } // namespace smokevis

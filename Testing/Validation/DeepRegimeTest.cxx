@@ -53,6 +53,33 @@ TEST(DeepRegime, WhiteSmoke)
   CheckDeep("white", 1, 0.006);
 }
 
+// Sources in such cells are exponential; linear ones that stay above 0 made the bars three and four
+// times too bright.
+TEST(DeepRegime, CellsOfFourMeanFreePaths)
+{
+  report::Head("Dark bars twelve mean free paths away, in cells of four, against cells of one");
+  for (const double albedo : {0.6, 0.9})
+  {
+    const auto look = [albedo](int cut)
+    {
+      const Vec3 size(4.0, 2.0, 2.0);
+      SceneDescription scene;
+      scene.Albedo = albedo;
+      scene.Grids = {scenes::UniformSmoke(Vec3(0.0), size, {8 * cut, 4 * cut, 4 * cut}, 8.0)};
+      scenes::AddRoom(scene.Surfaces, Vec3(0.0), size, 0.5, 0.3);
+      scene.Emitters =
+        scenes::Barcode({4, 1, 1}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 100.0, 0, 0.2);
+      scene.Emitters.push_back(
+        scenes::Plate({1.0, 1.0, 1.99}, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, 100.0, 0.5));
+      return MeasureSign(*Solved(scene, 0.1).TheView, 0, {2.5, 1.0, 1.0}, Observer{0.0});
+    };
+    const SignMeasurement coarse = look(1);
+    const SignMeasurement fine = look(4);
+    report::Relative("albedo " + std::to_string(albedo).substr(0, 3), fine.UnlitLuminance,
+      coarse.UnlitLuminance, 0.35, std::hypot(fine.MeanLuminanceError, coarse.MeanLuminanceError));
+  }
+}
+
 TEST(DeepRegime, FineCellsLong)
 {
   CheckDeep("soot", 2, 0.003);

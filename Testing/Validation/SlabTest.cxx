@@ -110,6 +110,30 @@ TEST(Slab, CoarseLayers)
   CheckRows(5.0, 5.0, {0.5}, 3, 0.05);
 }
 
+// In layers of two to three mean free paths light falls off to a twentieth: sources are
+// exponential there. Linear ones would let a third too little to two thirds too much through.
+TEST(Slab, ThroughVeryCoarseLayers)
+{
+  report::Head("Slab under diffuse light, through layers of 2 and 3.3 mean free paths");
+  const report::ReferenceTable table("slab_reflectance_transmittance.csv");
+  for (std::size_t row = 0; row < table.Rows(); ++row)
+  {
+    const double albedo = table.Number(row, "omega");
+    if (table.Text(row, "incidence") != "diffuse" || table.Number(row, "tau0") != 10.0 ||
+        (albedo != 0.5 && albedo != 0.8 && albedo != 0.95))
+    {
+      continue;
+    }
+    for (const auto& [layers, tolerance] : {std::pair{5, 0.08}, std::pair{3, 0.15}})
+    {
+      const scenes::Slab slab = scenes::MakeSlab(10.0, albedo, layers);
+      const Estimate through = Solved(slab.Description, 0.02).Illuminance(slab.FarPatches, 0);
+      report::Relative("albedo " + table.Text(row, "omega") + " layers " + std::to_string(layers),
+        table.Number(row, "T"), through.Mean, tolerance, through.StandardError);
+    }
+  }
+}
+
 TEST(Slab, CoarseLayersLong)
 {
   CheckRows(5.0, 5.0, {0.8}, 9, 0.01);
