@@ -188,8 +188,9 @@ void vtkSmokeLightField::WarnOfCoarseCells(const smokevis::LightField& field)
       << "Smoke: " << field.CoarseCells << " of " << field.Cells
       << " cells are so thick that light is scattered more than once on a mean way "
       << "through them. What lies in the dark behind several of them may come out "
-      << "a third too bright, and many times too bright where they are thicker than "
-      << "four mean free paths, which no error bar tells: give smoke on a finer grid.");
+      << "a third too bright, in white smoke half as bright as it is, and many times too bright "
+      << "where they are thicker than four mean free paths, which no error bar tells: give smoke "
+      << "on a finer grid.");
   }
 }
 

@@ -31,8 +31,29 @@ constexpr double LeastAlbedo = 0.5;
 /// Change of a source from the middle of a cell to its corner, over its mean, above which it is
 /// taken to be exponential. A linear one would be below 0 somewhere above 1.
 constexpr float SteepChange = 0.5F;
-/// Optical depth across a cell below which linear sources do.
+/// Optical depth across a cell below which linear sources do, and that along its longest edge above
+/// which its shape is hardly known along others.
 constexpr double ThinnestSteep = 0.5;
+constexpr double LongestSteep = 6.0;
+
+/// Of light that is scattered many times, as it falls off by exp(-x) over an optical depth, to the
+/// first two orders in what is absorbed (Case and Zweifel, Linear Transport Theory, 1967).
+double DecayOf(double albedo)
+{
+  constexpr double Least = 1e-4;
+  const double absorbed = std::max(Least, 1.0 - albedo);
+  return std::min(1.0, std::sqrt(3.0 * absorbed) * (1.0 - 0.4 * absorbed));
+}
+
+/// Most that the logarithm of such light falls by over an optical depth: where nothing comes from
+/// beyond, it is a hyperbolic sine that ends 0.71 mean free paths behind (Milne's problem). In
+/// white smoke that is much less than the way to the light deepens by.
+double MostFall(double decay, double depth)
+{
+  constexpr double End = 0.7104;
+  const double fall = std::log(std::sinh(decay * (depth + End)) / std::sinh(decay * End));
+  return std::min(CellShape::SteepestChange, fall);
+}
 
 /// By how much the logarithm of a field rises; the quotient of what is next to nothing and of much
 /// need not fit single precision.
@@ -47,7 +68,8 @@ float Rise(float from, float to)
 SourceShape::SourceShape(const Scene& scene, const LightField& field, const DirectField& direct,
   int band, const std::vector<float>& extinction)
     : Smoke_(&scene.Smoke()), Open_(&scene.Open()),
-      DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0))
+      DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
+      Scale_(scene.ExtinctionScale(band)), Decay_(DecayOf(scene.Albedo()))
 {
   const Medium& smoke = scene.Smoke();
   const double albedo = scene.Albedo() > 0.0 ? std::max(LeastAlbedo, scene.Albedo()) : 0.0;
@@ -81,7 +103,9 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
         const std::int64_t cell = shaped[i];
         // Only over a whole box the mean of an exponential is known.
         const bool mayBeSteep =
-          extinction[cell] * smoke.MeanChord(cell) > ThinnestSteep && !smoke.Parts().Find(cell);
+          extinction[cell] * smoke.MeanChord(cell) > ThinnestSteep &&
+          extinction[cell] * LargestEdge(smoke.CellSize(cell)) < LongestSteep &&
+          !smoke.Parts().Find(cell);
         this->Cells_[i] = {cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band),
           mayBeSteep, Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
@@ -161,7 +185,10 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
           steep[cell] = 1;
           for (int axis = 0; axis < 3; ++axis)
           {
-            const float most = static_cast<float>(0.5 * CellShape::SteepestChange) / own.Half[axis];
+            const double depth =
+              2.0 * own.Half[axis] * this->Scale_ * this->Smoke_->Extinction(cell);
+            const float most =
+              static_cast<float>(0.5 * MostFall(this->Decay_, depth)) / own.Half[axis];
             slope[axis] = std::clamp(slope[axis], -most, most);
             shaped.Middle -= static_cast<float>(LogarithmOfMean(slope[axis] * own.Half[axis]));
           }

@@ -89,6 +89,10 @@ private:
   const Medium* Smoke_ = nullptr;
   const OpenFaces* Open_ = nullptr;
   const float* DirectFluence_ = nullptr;
+  /// Of the extinction coefficient in the band.
+  double Scale_ = 1.0;
+  /// By how much the logarithm of light falls over a mean free path, deep in smoke.
+  double Decay_ = 1.0;
   std::vector<Shaped> Cells_;
   std::vector<Measures> Measures_;
   /// Empty where no cell's source is.
