@@ -33,7 +33,7 @@ struct ExponentialSource
   float Inside;
 
 private:
-  /// Mean of exp(-x t) over t in (0, 1).
+  /// Mean of exp(-x t) over t in (0, 1), as MeanOfExponential, where exp(-x) is known already.
   /// @param last exp(-x)
   static float Mean(float x, float last)
   {

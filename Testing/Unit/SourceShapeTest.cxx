@@ -61,10 +61,13 @@ TEST(SourceShape, FallsAsTheNeighboursSay)
   EXPECT_EQ(ShapeOf({1.0F, 1.0F, 0.0F}).Change, 0.0F);
 }
 
-/// sinh(k (d + 0.7104)) / sinh(0.7104 k) of an albedo of 0.9, whose k is sqrt(0.3) 0.96, for depths
-/// d of 1 and 3.
-const double MostOfOne = std::log(std::sinh(0.8994) / std::sinh(0.3735));
-const double MostOfThree = std::log(std::sinh(1.9510) / std::sinh(0.3735));
+/// Most that the logarithm falls by over a depth, sinh(k (depth + 0.7104)) / sinh(0.7104 k) with
+/// the k of an albedo of 0.9.
+double MostOf(double depth)
+{
+  const double decay = std::sqrt(0.3) * 0.96;
+  return std::log(std::sinh(decay * (depth + 0.7104)) / std::sinh(decay * 0.7104));
+}
 
 // By 25 over two cells: exp(-1.6 x) has a mean of sinh(0.8) / 0.8 over 1 m around 0. It falls by no
 // more than light does that diffuses to an end.
@@ -75,7 +78,7 @@ TEST(SourceShape, IsExponentialWhereItIsSteep)
   EXPECT_NEAR(steep.Change, -std::log(5.0), 1e-6);
   const double half = 0.5 * std::log(5.0);
   EXPECT_NEAR(steep.Middle, -std::log(std::sinh(half) / half), 1e-6);
-  EXPECT_NEAR(ShapeOf({100.0F, 1.0F, 0.01F}, 3.0F).Change, -MostOfThree, 1e-3);
+  EXPECT_NEAR(ShapeOf({100.0F, 1.0F, 0.01F}, 3.0F).Change, -MostOf(3.0), 1e-6);
 }
 
 // In smoke too thin to dim light so, and across cells that are much longer than light gets, the
@@ -94,9 +97,9 @@ TEST(SourceShape, IsLinearInThinSmokeAndLongCells)
 // bright beside: such a quotient is not a number of single precision.
 TEST(SourceShape, HoldsBesideNextToNothing)
 {
-  EXPECT_NEAR(ShapeOf({1e-35F, 1e5F, 1e5F}).Change, MostOfOne, 1e-3);
-  EXPECT_NEAR(ShapeOf({1e5F, 1e5F, 1e-35F}).Change, -MostOfOne, 1e-3);
-  EXPECT_NEAR(ShapeOf({1e5F, 1e-35F, 1e-35F}).Change, -MostOfOne, 1e-3);
+  EXPECT_NEAR(ShapeOf({1e-35F, 1e5F, 1e5F}).Change, MostOf(1.0), 1e-6);
+  EXPECT_NEAR(ShapeOf({1e5F, 1e5F, 1e-35F}).Change, -MostOf(1.0), 1e-6);
+  EXPECT_NEAR(ShapeOf({1e5F, 1e-35F, 1e-35F}).Change, -MostOf(1.0), 1e-6);
   EXPECT_TRUE(std::isfinite(ShapeOf({1e-35F, 1e30F, 1e-35F}).Change));
 }
 

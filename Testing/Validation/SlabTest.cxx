@@ -111,7 +111,7 @@ TEST(Slab, CoarseLayers)
 }
 
 // In layers of two to three mean free paths light falls off to a twentieth: sources are
-// exponential there. Linear ones would let a third too little to two thirds too much through.
+// exponential there. Linear ones would let a quarter too little to two thirds too much through.
 TEST(Slab, ThroughVeryCoarseLayers)
 {
   report::Head("Slab under diffuse light, through layers of 2 and 3.3 mean free paths");
