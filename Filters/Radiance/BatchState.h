@@ -2,16 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace smokevis
 {
 
-/// Sums over sweeps of the light that watched surfaces send on after they got it from others.
+/// Sides of patches and cells of smoke that are watched, by number; empty: none.
+struct WatchedPlaces
+{
+  std::vector<std::uint8_t> Sides, Cells;
+};
+
+/// Sums over sweeps of the light that watched places send on after they got it from others.
 struct WatchedLight
 {
-  /// Its power where it comes to them, before a sweep; what they take up of it or does not come
-  /// back to any of them in the sweep; and all other light that comes to them [lm].
+  /// Its power where it meets them, before a sweep; what they take up of it or does not come
+  /// back to any of them in the sweep; and all other light that meets them [lm].
   double Held = 0.0, Lost = 0.0, Gained = 0.0;
   int Sweeps = 0;
 };
@@ -34,6 +41,10 @@ struct BatchState
   /// Sweeps that the latest estimate comes from.
   int Sweeps = 0;
   WatchedLight Watched;
+  /// Over the same sweeps, what of the light that watched places sent on met each side of a patch,
+  /// and each of some cells from one on, others in each batch [lm]; empty: none are watched.
+  std::vector<float> WatchedAtSides, WatchedAtCells;
+  std::int64_t FirstWatchedAt = 0;
 
   BatchState() = default;
   BatchState(std::size_t cells, std::size_t sides);

@@ -110,6 +110,10 @@ void BatchSweeps::ShareSums()
     parts.push_back(Team::PartOf(owner, &state.EscapedSum, 1));
     parts.push_back(Team::PartOf(owner, &state.Counted, 1));
     parts.push_back(Team::PartOf(owner, &state.Watched, 1));
+    for (std::vector<float>* values : {&state.WatchedAtSides, &state.WatchedAtCells})
+    {
+      parts.push_back(Team::PartOf(owner, values->data(), values->size()));
+    }
   }
   this->Team_.Share(parts);
 }

@@ -37,7 +37,7 @@ struct LineBuffers
   std::vector<Piece> Pieces;
   /// First piece behind each crossing, and the end.
   std::vector<std::size_t> First;
-  /// Radiance that comes to each crossing, along the line and against it; of watched surfaces only.
+  /// Radiance that comes to each crossing, along the line and against it; where places are watched.
   std::array<std::vector<float>, 2> Arriving;
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -188,6 +189,8 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   tallies.Escaped = 0.0;
   tallies.WatchedLost = 0.0;
   tallies.WatchedGained = 0.0;
+  tallies.WatchedAtSides.assign(state.WatchedAtSides.size(), 0.0F);
+  tallies.WatchedAtCells.assign(state.WatchedAtCells.size(), 0.0F);
 }
 
 void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) const
@@ -246,6 +249,34 @@ void LineSweep::TakeFluence(const LineTallies& tallies, float share, BatchState&
   }
 }
 
+LineSweep::Holding LineSweep::HeldByWatched(const BatchState& state) const
+{
+  Holding held;
+  const auto add = [&](double power, double sentOn)
+  {
+    held.Power += power;
+    held.TakenUp += (1.0 - sentOn) * power;
+  };
+  for (std::size_t side = 0; side < this->Watched_.Sides.size(); ++side)
+  {
+    if (this->Watched_.Sides[side])
+    {
+      add(this->Scene_.ExposedArea(side / 2, side % 2) * state.Illuminance[side],
+        this->Scene_.PatchReflectance(side / 2)[this->Band_]);
+    }
+  }
+  for (std::size_t cell = 0; cell < this->Watched_.Cells.size(); ++cell)
+  {
+    if (this->Watched_.Cells[cell])
+    {
+      add(std::abs(this->SignedExtinction_[cell]) * this->Scene_.Smoke().OwnVolume(cell) *
+            state.Fluence[cell],
+        this->Scene_.Albedo());
+    }
+  }
+  return held;
+}
+
 void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
   const Progress& progress) const
 {
@@ -262,17 +293,15 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     this->TraceLine(state, draw.Get(line), tallies, buffers);
   }
 
-  for (std::size_t side = 0; side < this->Watched_.size(); ++side)
-  {
-    const double held = this->Watched_[side]
-                          ? this->Scene_.ExposedArea(side / 2, side % 2) * state.Illuminance[side]
-                          : 0.0;
-    state.Watched.Held += held;
-    state.Watched.Lost += (1.0 - this->Scene_.PatchReflectance(side / 2)[this->Band_]) * held;
-  }
-  state.Watched.Lost += tallies.WatchedLost;
+  const Holding held = this->HeldByWatched(state);
+  state.Watched.Held += held.Power;
+  state.Watched.Lost += held.TakenUp + tallies.WatchedLost;
   state.Watched.Gained += tallies.WatchedGained;
   ++state.Watched.Sweeps;
+  const auto accumulate = [](const std::vector<float>& values, std::vector<float>& sums)
+  { std::transform(values.begin(), values.end(), sums.begin(), sums.begin(), std::plus<float>()); };
+  accumulate(tallies.WatchedAtSides, state.WatchedAtSides);
+  accumulate(tallies.WatchedAtCells, state.WatchedAtCells);
   this->TakeFluence(tallies, this->ShareOf(thin), state);
   ++state.Sweeps;
   const float least = 1.0F / static_cast<float>(state.Sweeps);

@@ -52,6 +52,8 @@ struct LineTallies
   double Escaped = 0.0;
   /// As in WatchedLight, of lines alone [lm].
   double WatchedLost = 0.0, WatchedGained = 0.0;
+  /// As in BatchState.
+  std::vector<float> WatchedAtSides, WatchedAtCells;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -77,9 +79,17 @@ public:
   /// Lets the sources vary inside the cells as the means of the batches' sums do.
   void Follow(const std::vector<BatchState>& batches) { this->Shape_.Follow(batches); }
 
-  /// Tallies from now on what light watched sides of patches send to each other; empty: none.
-  void Watch(std::vector<bool> sides) { this->Watched_ = std::move(sides); }
-  const std::vector<bool>& Watched() const { return this->Watched_; }
+  /// Tallies from now on what light watched places send to each other.
+  void Watch(WatchedPlaces places) { this->Watched_ = std::move(places); }
+  bool Watches() const { return !this->Watched_.Sides.empty(); }
+  const WatchedPlaces& Watched() const { return this->Watched_; }
+  /// Power of a state's latest light that meets the watched places, and what of it they take up at
+  /// once [lm].
+  struct Holding
+  {
+    double Power = 0.0, TakenUp = 0.0;
+  };
+  Holding HeldByWatched(const BatchState& state) const;
 
   const ThickCells& Thick() const { return this->Thick_; }
   /// Blocks that complete what whole sweeps find; none where little is scattered often.
@@ -116,7 +126,7 @@ private:
   {
     return thin ? static_cast<float>(this->ThinLines()) / static_cast<float>(this->Lines()) : 1.0F;
   }
-  /// Tallies what light the line takes from watched sides, and to them.
+  /// Tallies what light the line takes from watched places, and to them.
   void TallyWatched(
     const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const;
   /// Radiance that a watched side sends on of what others sent to it; 0 from all other sides.
@@ -153,7 +163,7 @@ private:
   /// How often lines of one sweep are expected to meet each cell and each side of a patch.
   std::vector<float> CellCrossings_, SideHits_;
   PatchGroups Groups_;
-  std::vector<bool> Watched_;
+  WatchedPlaces Watched_;
 };
 
 } // namespace smokevis

@@ -7,6 +7,7 @@
 #include "LinePieces.h"
 
 #include <cmath>
+#include <iterator>
 
 #include <glm/gtc/constants.hpp>
 
@@ -134,7 +135,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
 
   for (std::vector<float>& arriving : buffers.Arriving)
   {
-    arriving.resize(this->Watched_.empty() ? 0 : crossings);
+    arriving.resize(this->Watches() ? crossings : 0);
   }
   const auto arrive = [&](const Hit& hit, float radiance)
   {
@@ -156,7 +157,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     if (part < crossings)
     {
       arrive(buffers.Crossings[part].Arrive, radiance);
-      if (!this->Watched_.empty())
+      if (this->Watches())
       {
         buffers.Arriving[0][part] = radiance;
       }
@@ -176,7 +177,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     if (part > 0)
     {
       arrive(buffers.Crossings[part - 1].Leave, radiance);
-      if (!this->Watched_.empty())
+      if (this->Watches())
       {
         buffers.Arriving[1][part - 1] = radiance;
       }
@@ -190,7 +191,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
     cell.Fluence +=
       weight * piece.Length * (piece.Excess * piece.Escape + (2.0F * piece.Source - cell.Expected));
   }
-  if (!this->Watched_.empty())
+  if (this->Watches())
   {
     this->TallyWatched(state, line.Weight, buffers, tallies);
   }
@@ -200,7 +201,7 @@ float LineSweep::WatchedOutgoing(const BatchState& state, const Hit& hit) const
 {
   const std::size_t patch = this->Scene_.Patch(hit);
   const std::size_t side = 2 * patch + hit.Side;
-  return this->Watched_[side]
+  return this->Watched_.Sides[side]
            ? static_cast<float>(
                this->Scene_.PatchReflectance(patch)[this->Band_] / glm::pi<double>()) *
                state.Illuminance[side]
@@ -210,41 +211,62 @@ float LineSweep::WatchedOutgoing(const BatchState& state, const Hit& hit) const
 void LineSweep::TallyWatched(
   const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const
 {
-  const auto take = [&](const Hit& hit, float sent, float left, float all)
+  // What else takes up of their light is lost, and what meets them of all other light gained.
+  const auto meet = [&](const Hit& hit, float own, float all)
   {
-    const bool watched = this->Watched_[2 * this->Scene_.Patch(hit) + hit.Side];
-    tallies.WatchedLost += weight * (watched ? sent - left : sent);
-    tallies.WatchedGained += watched ? weight * (all - left) : 0.0;
+    const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
+    tallies.WatchedAtSides[side] += static_cast<float>(weight) * own;
+    const bool watched = this->Watched_.Sides[side];
+    tallies.WatchedLost += watched ? 0.0 : weight * own;
+    tallies.WatchedGained += watched ? weight * (all - own) : 0.0;
+  };
+  const auto cross = [&](const LineBuffers::Piece& piece, float& own)
+  {
+    const float depth = tallies.Cells[piece.Cell].Extinction() * piece.Length;
+    const float opacity = depth * piece.Escape;
+    const bool watched = this->Watched_.Cells[piece.Cell];
+    const float source = watched ? this->Scatter_ * state.Fluence[piece.Cell] : 0.0F;
+    const float met = opacity * own + (depth - opacity) * source;
+    // Half of what both directions bring together.
+    const float all = 0.5F * opacity * piece.Excess + depth * piece.Source;
+    tallies.WatchedLost += watched ? 0.0 : weight * met;
+    tallies.WatchedGained += watched ? weight * (all - met) : 0.0;
+    const std::int64_t place = piece.Cell - state.FirstWatchedAt;
+    if (place >= 0 && place < std::ssize(tallies.WatchedAtCells))
+    {
+      tallies.WatchedAtCells[place] += static_cast<float>(weight) * met;
+    }
+    own += opacity * (source - own);
   };
   const std::size_t crossings = buffers.Crossings.size();
-  float first = 0.0F;
+  float own = 0.0F;
   for (std::size_t part = 0; part <= crossings; ++part)
   {
-    float through = 1.0F;
     for (std::size_t i = buffers.First[part]; i < buffers.First[part + 1]; ++i)
     {
-      through *= buffers.Pieces[i].Transmittance;
+      cross(buffers.Pieces[i], own);
     }
-    float last = 0.0F;
     if (part < crossings)
     {
-      take(buffers.Crossings[part].Arrive, first, through * first, buffers.Arriving[0][part]);
-      last = this->WatchedOutgoing(state, buffers.Crossings[part].Arrive);
+      meet(buffers.Crossings[part].Arrive, own, buffers.Arriving[0][part]);
+      own = this->WatchedOutgoing(state, buffers.Crossings[part].Leave);
     }
-    else
+  }
+  tallies.WatchedLost += weight * own;
+  own = 0.0F;
+  for (std::size_t part = crossings + 1; part-- > 0;)
+  {
+    for (std::size_t i = buffers.First[part + 1]; i-- > buffers.First[part];)
     {
-      tallies.WatchedLost += weight * first;
+      cross(buffers.Pieces[i], own);
     }
     if (part > 0)
     {
-      take(buffers.Crossings[part - 1].Leave, last, through * last, buffers.Arriving[1][part - 1]);
+      meet(buffers.Crossings[part - 1].Leave, own, buffers.Arriving[1][part - 1]);
+      own = this->WatchedOutgoing(state, buffers.Crossings[part - 1].Arrive);
     }
-    else
-    {
-      tallies.WatchedLost += weight * last;
-    }
-    first = part < crossings ? this->WatchedOutgoing(state, buffers.Crossings[part].Leave) : 0.0F;
   }
+  tallies.WatchedLost += weight * own;
 }
 
 } // namespace smokevis

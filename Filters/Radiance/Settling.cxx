@@ -129,7 +129,6 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   Verdict verdict;
   const double shown = std::max(LeastShown, 1.0 - std::pow(this->Kept(window.Sent), window.Sweeps));
   verdict.Drifts = drift.LowerBound > 0.0;
-  verdict.Grows = drift.LowerBound > this->Limit_ && window.Sweeps >= SlowWindow;
   verdict.Tolerable = drift.UpperBound < this->Limit_ * shown ||
                       (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ * shown &&
                         drift.UpperBound < HiddenShare * this->Limit_);
@@ -141,6 +140,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
                          std::max(1.0, (1.0 - this->Kept(window.Sent)) * this->Sweeps_.Counted());
   verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
                                            (drift.IsNoise() && lacking <= LackingErrors * error));
+  verdict.Grows = verdict.Drifts && !verdict.Settled && window.Sweeps >= SlowWindow;
   return verdict;
 }
 
@@ -202,19 +202,22 @@ void Settling::Run()
       window.Sweeps = this->Sweeps_.Done() - window.Before;
       continue;
     }
-    if (slow.Balance(states))
+    if (slow.Refine(states))
+    {
+      this->Scale(powers);
+    }
+    else if (slow.Balance(states))
     {
       // What was seen before does not compare with that.
       earlier.reset();
-      slow.Watch(states, false);
+      this->Arena_.execute([&] { slow.Watch(states, false); });
     }
     else
     {
       this->Scale(powers);
-      if (2 * window.Sweeps >= SlowWindow &&
-          (verdict.Grows || this->Sweeps_.Sweep().Watched().empty()))
+      if (2 * window.Sweeps >= SlowWindow && (verdict.Grows || !this->Sweeps_.Sweep().Watches()))
       {
-        slow.Watch(states, verdict.Grows);
+        this->Arena_.execute([&] { slow.Watch(states, verdict.Grows); });
       }
       window.Sweeps = verdict.Tolerable ? window.Sweeps : 2 * window.Sweeps;
     }

@@ -1,10 +1,12 @@
 #include "SlowLight.h"
 
+#include "BatchState.h"
+#include "CellLoops.h"
 #include "LineSweep.h"
 #include "Scene.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace smokevis
@@ -20,13 +22,40 @@ namespace
 constexpr double LeastGrowth = 0.1;
 constexpr double Deviations = 3.0;
 constexpr double CompanyDeviations = 1.0;
-/// Light on darker surfaces than this settles by itself.
+/// Light on darker surfaces than this, or in darker smoke, settles by itself.
 constexpr double LeastReflectance = 0.5;
+/// Share of the light that meets a place that must come from watched ones for it to be one of them:
+/// light that has grown for eight sweeps is more than that where next to none is lost. Light that
+/// was told apart wrongly, over all that the watched places lose, below which that does not matter,
+/// and how often places may be chosen anew.
+constexpr double LeastOwn = 0.75;
+constexpr double LeastChange = 0.1;
+constexpr int MostRefinements = 2;
 /// Standard error that what the light grows to may have. It shows in the spread of the batches.
 constexpr double LargestError = 0.3;
 /// A batch does not leave the mean by more than this factor, nor change at once by more than that.
 constexpr double LargestSpread = 4.0;
 constexpr double LargestScale = 1e4;
+
+Lanes Means(
+  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, std::size_t place)
+{
+  Lanes means;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    means[batch] =
+      (batches[batch].*sums)[place] / static_cast<float>(std::max(1, batches[batch].Counted));
+  }
+  return means;
+}
+
+void Scale(const std::vector<std::uint8_t>& places, float scale, std::vector<float>& light)
+{
+  for (std::size_t place = 0; place < places.size(); ++place)
+  {
+    light[place] *= places[place] ? scale : 1.0F;
+  }
+}
 
 } // namespace
 
@@ -40,45 +69,131 @@ SlowLight::SlowLight(const Scene& scene, LineSweep& sweep, int band)
 void SlowLight::Watch(std::vector<BatchState>& batches, bool grows)
 {
   const std::size_t sides = batches.front().IlluminanceSum.size();
-  std::vector<float> now(sides);
-  std::vector<bool> watched(sides, false);
+  const std::size_t cells = batches.front().FluenceSum.size();
+  const bool compares = grows && !this->EarlierSides_.empty();
+  this->EarlierSides_.resize(sides);
+  this->EarlierCells_.resize(cells);
+  WatchedPlaces watched{std::vector<std::uint8_t>(sides), std::vector<std::uint8_t>(cells)};
   bool any = false;
   for (std::size_t side = 0; side < sides; ++side)
   {
-    Lanes lanes;
-    for (int batch = 0; batch < Batches; ++batch)
+    const Lanes now = Means(batches, &BatchState::IlluminanceSum, side);
+    Lanes& earlier = this->EarlierSides_[side];
+    if (compares && this->Scene_.PatchReflectance(side / 2)[this->Band_] > LeastReflectance)
     {
-      lanes[batch] = batches[batch].IlluminanceSum[side] /
-                     static_cast<float>(std::max(1, batches[batch].Counted));
+      // A batch may be brighter than others all the time.
+      Lanes rises = now;
+      Add(rises, earlier, -1.0F);
+      const double rise = Mean(rises);
+      const double error = StandardError(rises);
+      const bool large = rise > LeastGrowth * std::max(0.0, Mean(earlier));
+      watched.Sides[side] = large && rise > CompanyDeviations * error;
+      any = any || (large && rise > Deviations * error);
     }
-    now[side] = static_cast<float>(Mean(lanes));
-    if (grows && !this->Earlier_.empty() &&
-        this->Scene_.PatchReflectance(side / 2)[this->Band_] > LeastReflectance)
-    {
-      const double growth = now[side] - this->Earlier_[side];
-      if (growth > LeastGrowth * std::max(0.0F, this->Earlier_[side]))
-      {
-        watched[side] = growth > CompanyDeviations * StandardError(lanes);
-        any = any || growth > Deviations * StandardError(lanes);
-      }
-    }
+    earlier = now;
   }
-  this->Earlier_ = std::move(now);
-  for (BatchState& batch : batches)
+  ForEachCell(cells,
+    [&](std::int64_t cell)
+    {
+      const Lanes lanes = Means(batches, &BatchState::FluenceSum, cell);
+      const double now = Mean(lanes);
+      const double rise = now - this->EarlierCells_[cell];
+      watched.Cells[cell] = this->Scene_.Albedo() > LeastReflectance &&
+                            this->Scene_.Smoke().Extinction(cell) > 0.0 &&
+                            rise > LeastGrowth * std::max(0.0F, this->EarlierCells_[cell]) &&
+                            rise > CompanyDeviations * StandardError(lanes);
+      this->EarlierCells_[cell] = static_cast<float>(now);
+    });
+  this->Refinements_ = 0;
+  this->Watch(batches, any ? std::move(watched) : WatchedPlaces());
+}
+
+//--------------------------------------------------------------------------------------------------
+void SlowLight::Watch(std::vector<BatchState>& batches, WatchedPlaces places)
+{
+  const auto first = [&](std::size_t batch)
+  { return static_cast<std::int64_t>(batch * places.Cells.size() / batches.size()); };
+  for (std::size_t batch = 0; batch < batches.size(); ++batch)
   {
-    batch.Watched = {};
+    BatchState& state = batches[batch];
+    state.Watched = {};
+    state.WatchedAtSides.assign(places.Sides.size(), 0.0F);
+    state.FirstWatchedAt = first(batch);
+    state.WatchedAtCells.assign(first(batch + 1) - first(batch), 0.0F);
   }
-  this->Sweep_.Watch(any ? std::move(watched) : std::vector<bool>());
+  this->Sweep_.Watch(std::move(places));
+}
+
+//--------------------------------------------------------------------------------------------------
+bool SlowLight::Refine(std::vector<BatchState>& batches)
+{
+  if (!this->Sweep_.Watches() || this->Refinements_ == MostRefinements)
+  {
+    return false;
+  }
+  WatchedPlaces places = this->Sweep_.Watched();
+  double changed = 0.0;
+  bool any = false;
+  const auto decide = [&](std::uint8_t& watched, double own, double all)
+  {
+    const bool belongs = own > LeastOwn * all;
+    if (belongs != (watched != 0))
+    {
+      changed += belongs ? own : all - own;
+      watched = belongs;
+    }
+    any = any || belongs;
+  };
+  for (std::size_t side = 0; side < places.Sides.size(); ++side)
+  {
+    double own = 0.0;
+    double all = 0.0;
+    for (const BatchState& batch : batches)
+    {
+      own += batch.WatchedAtSides[side] / batch.Watched.Sweeps / Batches;
+      all += batch.IlluminanceSum[side] / static_cast<float>(batch.Counted) / Batches;
+    }
+    if (this->Scene_.PatchReflectance(side / 2)[this->Band_] > LeastReflectance)
+    {
+      decide(places.Sides[side], own, all * this->Scene_.ExposedArea(side / 2, side % 2));
+    }
+  }
+  const Medium& smoke = this->Scene_.Smoke();
+  for (const BatchState& batch : batches)
+  {
+    for (std::size_t i = 0; i < batch.WatchedAtCells.size(); ++i)
+    {
+      const std::int64_t cell = batch.FirstWatchedAt + static_cast<std::int64_t>(i);
+      const double size = this->Scene_.Albedo() > LeastReflectance
+                            ? smoke.Extinction(cell) * this->Scene_.ExtinctionScale(this->Band_) *
+                                smoke.OwnVolume(cell)
+                            : 0.0;
+      decide(places.Cells[cell], batch.WatchedAtCells[i] / batch.Watched.Sweeps,
+        size * batch.FluenceSum[cell] / batch.Counted);
+    }
+  }
+  double lost = 0.0;
+  for (const BatchState& batch : batches)
+  {
+    lost += batch.Watched.Lost / batch.Watched.Sweeps / Batches;
+  }
+  if (!(changed > LeastChange * lost))
+  {
+    return false;
+  }
+  ++this->Refinements_;
+  this->Watch(batches, any ? std::move(places) : WatchedPlaces());
+  return true;
 }
 
 //--------------------------------------------------------------------------------------------------
 bool SlowLight::Balance(std::vector<BatchState>& batches)
 {
-  const std::vector<bool>& watched = this->Sweep_.Watched();
-  if (watched.empty())
+  if (!this->Sweep_.Watches())
   {
     return false;
   }
+  const WatchedPlaces& watched = this->Sweep_.Watched();
   WatchedLight mean;
   for (const BatchState& batch : batches)
   {
@@ -109,20 +224,12 @@ bool SlowLight::Balance(std::vector<BatchState>& batches)
   for (std::size_t i = 0; i < batches.size(); ++i)
   {
     BatchState& batch = batches[i];
-    double latest = 0.0;
-    for (std::size_t side = 0; side < watched.size(); ++side)
-    {
-      latest += watched[side]
-                  ? this->Scene_.ExposedArea(side / 2, side % 2) * batch.Illuminance[side]
-                  : 0.0;
-    }
+    const double latest = this->Sweep_.HeldByWatched(batch).Power;
     const double wanted = held * std::clamp(1.0 + changes[i], 1.0 / LargestSpread, LargestSpread);
     const double scale =
       latest > 0.0 ? std::clamp(wanted / latest, 1.0 / LargestScale, LargestScale) : 1.0;
-    for (std::size_t side = 0; side < watched.size(); ++side)
-    {
-      batch.Illuminance[side] *= watched[side] ? static_cast<float>(scale) : 1.0F;
-    }
+    Scale(watched.Sides, static_cast<float>(scale), batch.Illuminance);
+    Scale(watched.Cells, static_cast<float>(scale), batch.Fluence);
   }
   return true;
 }

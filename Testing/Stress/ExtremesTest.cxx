@@ -190,8 +190,9 @@ TEST(Extremes, HardlyAnyLightIsLost)
   }
 }
 
-/// What a closed white box around a faint lamp takes up of its light [lm].
-Estimate TakenUpByBox(const Solved& solved, std::size_t first)
+/// What a closed white box around a faint lamp, and the smoke in it, take up of its light [lm].
+/// @param first patch of the box
+Estimate TakenUpByBox(const Solved& solved, const Box& box, std::size_t first)
 {
   const Scene& made = *solved.TheScene;
   const auto absorbed = [&](std::size_t patch, int side)
@@ -200,7 +201,7 @@ Estimate TakenUpByBox(const Solved& solved, std::size_t first)
     const double weight = (1.0 - made.PatchReflectance(patch)[0]) * made.ExposedArea(patch, side);
     return Estimate{weight * illuminance.Mean, weight * illuminance.StandardError};
   };
-  // The insides of the box see each other: their errors go together. Both sides of the lamp.
+  // All in the box lights each other: their errors go together. Both sides of the lamp.
   Estimate sum;
   const auto add = [&](const Estimate& own) {
     sum = {sum.Mean + own.Mean, sum.StandardError + own.StandardError};
@@ -213,32 +214,51 @@ Estimate TakenUpByBox(const Solved& solved, std::size_t first)
   {
     add(absorbed(made.Patches() - 1, side));
   }
+  const Medium& smoke = made.Smoke();
+  for (std::size_t cell = 0; cell < smoke.Cells(); ++cell)
+  {
+    const auto index = static_cast<std::int64_t>(cell);
+    if (box.Contains(smoke.CellCentre(index)))
+    {
+      const Estimate fluence = solved.Fluence(std::vector<std::int64_t>{index});
+      const double weight =
+        (1.0 - made.Albedo()) * smoke.Extinction(index) * smoke.OwnVolume(index);
+      add({weight * fluence.Mean, weight * fluence.StandardError});
+    }
+  }
   return sum;
 }
 
 // A closed white box around a faint lamp, in a room that a bright one lights: light in the box goes
-// to and fro a thousand times, and is next to nothing of all there is. What the lamp gives is what
-// the box takes up in the end, and what stands outside does not change.
+// to and fro a thousand times, also by way of smoke, and is next to nothing of all there is. What
+// the lamp gives is what the box takes up in the end, and what stands outside does not change.
 TEST(Extremes, WhiteBoxAroundLamp)
 {
   report::Head("Power that closed white boxes take up of the lamps in them [lm]");
   constexpr int Seeds = 4;
-  for (const double reflectance : {0.99, 0.999})
+  struct Case
   {
-    const std::string name = "box that loses " + std::to_string(1.0 - reflectance);
+    double Reflectance, Depth, Albedo;
+  };
+  for (const Case& each : {Case{0.99, 0.0, 0.9}, {0.999, 0.0, 0.9}, {0.999, 0.05, 0.99}})
+  {
+    const double reflectance = each.Reflectance;
+    const std::string name = NameOf(each.Depth, each.Albedo, reflectance);
     SCOPED_TRACE(name);
-    SceneDescription scene = ClosedBox(0.0, 0.9, 0.1);
+    SceneDescription scene = ClosedBox(each.Depth, each.Albedo, 0.1);
     const std::size_t first = scene.Surfaces.TriangleCell.back() + 1;
-    scenes::AddBlock(scene.Surfaces, {0.4, 0.3, 0.3}, {0.8, 0.7, 0.7}, 0.4, reflectance);
+    // Of twelve whole cells.
+    const Box box{Vec3(1.0 / 3.0), {5.0 / 6.0, 2.0 / 3.0, 2.0 / 3.0}};
+    scenes::AddBlock(scene.Surfaces, box.Lower, box.Upper, 0.4, reflectance);
     scene.Emitters.push_back(
-      scenes::Plate({0.6, 0.5, 0.65}, {0, 0, -1}, {1, 0, 0}, 0.05, 0.05, 0.1, reflectance));
+      scenes::Plate({0.6, 0.5, 0.6}, {0, 0, -1}, {1, 0, 0}, 0.05, 0.05, 0.1, reflectance));
     double given = 0.0;
     double sweeps = 0.0;
     Estimate mean;
     for (int seed = 1; seed <= Seeds; ++seed)
     {
       const Solved solved(scene, 0.03, seed);
-      const Estimate taken = TakenUpByBox(solved, first);
+      const Estimate taken = TakenUpByBox(solved, box, first);
       mean = {mean.Mean + taken.Mean / Seeds,
         std::hypot(mean.StandardError, taken.StandardError / Seeds)};
       const EmitterSet& lights = solved.TheScene->Lights();
