@@ -23,6 +23,12 @@ struct WatchedLight
   int Sweeps = 0;
 };
 
+/// Light that lines brought to a place: of what watched places sent on, and in all [lm].
+struct MetLight
+{
+  float Watched = 0.0F, All = 0.0F;
+};
+
 /// What one batch knows of the light field of one band; indices as in LightField, without the band.
 struct BatchState
 {
@@ -41,10 +47,10 @@ struct BatchState
   /// Sweeps that the latest estimate comes from.
   int Sweeps = 0;
   WatchedLight Watched;
-  /// Over the same sweeps, what of the light that watched places sent on met each side of a patch,
-  /// and each of some cells from one on, others in each batch [lm]; empty: none are watched.
-  std::vector<float> WatchedAtSides, WatchedAtCells;
-  std::int64_t FirstWatchedAt = 0;
+  /// Over the same sweeps, what met each side of a patch, and each of some cells from one on,
+  /// others in each batch; empty: none are watched.
+  std::vector<MetLight> AtSides, AtCells;
+  std::int64_t FirstCell = 0;
 
   BatchState() = default;
   BatchState(std::size_t cells, std::size_t sides);

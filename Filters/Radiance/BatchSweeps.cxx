@@ -110,7 +110,7 @@ void BatchSweeps::ShareSums()
     parts.push_back(Team::PartOf(owner, &state.EscapedSum, 1));
     parts.push_back(Team::PartOf(owner, &state.Counted, 1));
     parts.push_back(Team::PartOf(owner, &state.Watched, 1));
-    for (std::vector<float>* values : {&state.WatchedAtSides, &state.WatchedAtCells})
+    for (std::vector<MetLight>* values : {&state.AtSides, &state.AtCells})
     {
       parts.push_back(Team::PartOf(owner, values->data(), values->size()));
     }

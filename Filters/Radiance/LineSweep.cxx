@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -189,8 +188,8 @@ void LineSweep::Prepare(const BatchState& state, LineTallies& tallies) const
   tallies.Escaped = 0.0;
   tallies.WatchedLost = 0.0;
   tallies.WatchedGained = 0.0;
-  tallies.WatchedAtSides.assign(state.WatchedAtSides.size(), 0.0F);
-  tallies.WatchedAtCells.assign(state.WatchedAtCells.size(), 0.0F);
+  tallies.AtSides.assign(state.AtSides.size(), {});
+  tallies.AtCells.assign(state.AtCells.size(), {});
 }
 
 void LineSweep::ShapeSources(const BatchState& state, LineTallies& tallies) const
@@ -298,10 +297,16 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
   state.Watched.Lost += held.TakenUp + tallies.WatchedLost;
   state.Watched.Gained += tallies.WatchedGained;
   ++state.Watched.Sweeps;
-  const auto accumulate = [](const std::vector<float>& values, std::vector<float>& sums)
-  { std::transform(values.begin(), values.end(), sums.begin(), sums.begin(), std::plus<float>()); };
-  accumulate(tallies.WatchedAtSides, state.WatchedAtSides);
-  accumulate(tallies.WatchedAtCells, state.WatchedAtCells);
+  const auto accumulate = [](const std::vector<MetLight>& values, std::vector<MetLight>& sums)
+  {
+    for (std::size_t place = 0; place < values.size(); ++place)
+    {
+      sums[place].Watched += values[place].Watched;
+      sums[place].All += values[place].All;
+    }
+  };
+  accumulate(tallies.AtSides, state.AtSides);
+  accumulate(tallies.AtCells, state.AtCells);
   this->TakeFluence(tallies, this->ShareOf(thin), state);
   ++state.Sweeps;
   const float least = 1.0F / static_cast<float>(state.Sweeps);

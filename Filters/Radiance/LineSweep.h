@@ -53,7 +53,7 @@ struct LineTallies
   /// As in WatchedLight, of lines alone [lm].
   double WatchedLost = 0.0, WatchedGained = 0.0;
   /// As in BatchState.
-  std::vector<float> WatchedAtSides, WatchedAtCells;
+  std::vector<MetLight> AtSides, AtCells;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -74,8 +74,13 @@ public:
   /// Lines that cross a cell of its mesh's mean size about 1.5 times, or less often where little is
   /// asked for.
   std::size_t Lines() const { return this->Lines_.Count(); }
+  /// How many of them are expected to meet a side of a patch, or the group that it shares light
+  /// with.
+  float SideHits(std::size_t side) const { return this->SideHits_[side]; }
   /// The box that they enter and leave the scene through.
   const Box& Outer() const { return this->Lines_.Outer(); }
+  /// Those of a whole sweep.
+  const GlobalLines& AllLines() const { return this->Lines_; }
   /// Lets the sources vary inside the cells as the means of the batches' sums do.
   void Follow(const std::vector<BatchState>& batches) { this->Shape_.Follow(batches); }
 

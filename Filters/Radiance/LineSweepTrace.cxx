@@ -212,10 +212,15 @@ void LineSweep::TallyWatched(
   const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const
 {
   // What else takes up of their light is lost, and what meets them of all other light gained.
+  const auto add = [&](MetLight& sums, float own, float all)
+  {
+    sums.Watched += static_cast<float>(weight) * own;
+    sums.All += static_cast<float>(weight) * all;
+  };
   const auto meet = [&](const Hit& hit, float own, float all)
   {
     const std::size_t side = 2 * this->Scene_.Patch(hit) + hit.Side;
-    tallies.WatchedAtSides[side] += static_cast<float>(weight) * own;
+    add(tallies.AtSides[side], own, all);
     const bool watched = this->Watched_.Sides[side];
     tallies.WatchedLost += watched ? 0.0 : weight * own;
     tallies.WatchedGained += watched ? weight * (all - own) : 0.0;
@@ -229,13 +234,13 @@ void LineSweep::TallyWatched(
     const float met = opacity * own + (depth - opacity) * source;
     // Half of what both directions bring together.
     const float all = 0.5F * opacity * piece.Excess + depth * piece.Source;
+    const std::int64_t place = piece.Cell - state.FirstCell;
+    if (place >= 0 && place < std::ssize(tallies.AtCells))
+    {
+      add(tallies.AtCells[place], met, all);
+    }
     tallies.WatchedLost += watched ? 0.0 : weight * met;
     tallies.WatchedGained += watched ? weight * (all - met) : 0.0;
-    const std::int64_t place = piece.Cell - state.FirstWatchedAt;
-    if (place >= 0 && place < std::ssize(tallies.WatchedAtCells))
-    {
-      tallies.WatchedAtCells[place] += static_cast<float>(weight) * met;
-    }
     own += opacity * (source - own);
   };
   const std::size_t crossings = buffers.Crossings.size();

@@ -2,6 +2,8 @@
 
 #include "BatchSweeps.h"
 #include "Errors.h"
+#include "Persistence.h"
+#include "Scene.h"
 #include "SlowLight.h"
 #include "VeilProbes.h"
 
@@ -20,6 +22,13 @@ namespace
 /// tolerance that the light may be of which they know nothing yet.
 constexpr int MostThinSweeps = 32;
 constexpr double UncountedShare = 0.5;
+/// Shares of the mean illuminance below which a side is dark, so that it does not matter how long
+/// light would last there: of all, and of what comes straight from a light in the same room.
+constexpr double LeastLight = 1e-3;
+constexpr double LeastDirect = 1e-5;
+/// What is lost of the light where it lasts longest over what is lost of all, below which it is not
+/// balanced with the rest.
+constexpr double ShorterShare = 0.5;
 /// Light that was sent on so often is taken to lie evenly all over the scene.
 constexpr double EvenOrders = 4.0;
 /// Share of the tolerance that the drift from window to window may be.
@@ -75,6 +84,48 @@ double Settling::Lacking(double sent, int sweeps) const
   return std::pow(this->Kept(sent), sweeps) * (1.0 + even * (1.0 / this->Darkest_ - 1.0));
 }
 
+double Settling::LackingWhereItLasts(int sweeps) const
+{
+  return this->Lasting_ > 0.0 ? std::pow(this->Kept(this->Lasting_), sweeps) : 0.0;
+}
+
+void Settling::FindPersistence()
+{
+  const std::vector<BatchState>& states = this->Sweeps_.States();
+  const float* const direct =
+    this->Field_.DirectIlluminance.data() + this->Field_.PatchIndex(this->Band_, 0, 0);
+  const LineSweep& sweep = this->Sweeps_.Sweep();
+  const double thin = static_cast<double>(sweep.ThinLines()) / static_cast<double>(sweep.Lines());
+  std::vector<double> scattered(2 * this->Field_.Patches);
+  double power = 0.0;
+  double area = 0.0;
+  for (std::size_t side = 0; side < scattered.size(); ++side)
+  {
+    Lanes own;
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      own[batch] = states[batch].IlluminanceSum[side];
+    }
+    // A line that slips in where two boxes meet lights nothing to speak of: of the batches whose
+    // lines met a side, half have to find light there.
+    const auto found = std::count_if(
+      std::begin(own.Value), std::end(own.Value), [](float value) { return value > 0.0F; });
+    const double met = Batches * -std::expm1(-thin * sweep.SideHits(side));
+    scattered[side] = found > 1 && static_cast<double>(found) > 0.5 * met ? Mean(own) : 0.0;
+    const double exposed = this->Scene_.ExposedArea(side / 2, side % 2);
+    power += exposed * (direct[side] + scattered[side]);
+    area += exposed;
+  }
+  std::vector<bool> lit(scattered.size());
+  for (std::size_t side = 0; side < lit.size(); ++side)
+  {
+    lit[side] = direct[side] * area > LeastDirect * power ||
+                (direct[side] + scattered[side]) * area > LeastLight * power;
+  }
+  this->Arena_.execute(
+    [&] { this->Lasting_ = LongestPersistence(this->Scene_, sweep.AllLines(), this->Band_, lit); });
+}
+
 void Settling::BuildUp()
 {
   for (double left = 1.0; this->Sweeps_.Done() < MostThinSweeps && left > this->Uncounted_;)
@@ -89,13 +140,18 @@ void Settling::BuildUp()
     const std::vector<BatchState>& states = this->Sweeps_.States();
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
     const double sent = this->SentOf(powers);
+    if (this->Sweeps_.Done() == 1 && !this->Sweeps_.Diffusion())
+    {
+      this->FindPersistence();
+    }
     if (std::pow(this->Kept(sent), this->Sweeps_.Done()) <= this->Uncounted_ ||
         this->Sweeps_.Done() == MostThinSweeps)
     {
       this->Darkest_ =
         BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
     }
-    left = this->Lacking(sent, this->Sweeps_.Done());
+    left = std::max(
+      this->Lacking(sent, this->Sweeps_.Done()), this->LackingWhereItLasts(this->Sweeps_.Done()));
     this->Scale(powers);
     this->Sweeps_.Follow();
   }
@@ -140,7 +196,9 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
                          std::max(1.0, (1.0 - this->Kept(window.Sent)) * this->Sweeps_.Counted());
   verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
                                            (drift.IsNoise() && lacking <= LackingErrors * error));
-  verdict.Grows = verdict.Drifts && !verdict.Settled && window.Sweeps >= SlowWindow;
+  verdict.Settled = verdict.Settled && !window.Lacks;
+  verdict.Grows =
+    (verdict.Drifts || window.Lacks) && !verdict.Settled && window.Sweeps >= SlowWindow;
   return verdict;
 }
 
@@ -174,7 +232,9 @@ void Settling::Run()
     BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
     const std::vector<PowerBalance::Powers> powers = this->Balance_.Of(states);
     window.Sent = this->SentOf(powers);
-    window.Over = this->Lacking(window.Sent, window.Before) < this->Uncounted_;
+    window.Lacks = !this->Balanced_ && 1.0 - this->Lasting_ < ShorterShare * (1.0 - window.Sent) &&
+                   this->LackingWhereItLasts(window.Before) > this->Uncounted_;
+    window.Over = !window.Lacks && this->Lacking(window.Sent, window.Before) < this->Uncounted_;
     Verdict verdict;
     if (earlier)
     {
@@ -190,7 +250,7 @@ void Settling::Run()
       if (most || verdict.Settled)
       {
         this->Balance_.ExpectBalance(powers);
-        this->Sweeps_.Sweep().Watch({});
+        slow.Stop(states);
         return;
       }
     }
@@ -209,6 +269,7 @@ void Settling::Run()
     else if (slow.Balance(states))
     {
       // What was seen before does not compare with that.
+      this->Balanced_ = true;
       earlier.reset();
       this->Arena_.execute([&] { slow.Watch(states, false); });
     }
@@ -219,7 +280,7 @@ void Settling::Run()
       {
         this->Arena_.execute([&] { slow.Watch(states, verdict.Grows); });
       }
-      window.Sweeps = verdict.Tolerable ? window.Sweeps : 2 * window.Sweeps;
+      window.Sweeps *= verdict.Tolerable && !window.Lacks ? 1 : 2;
     }
     this->Sweeps_.Restart();
     window.Before = this->Sweeps_.Done();

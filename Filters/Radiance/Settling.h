@@ -46,6 +46,9 @@ private:
     double Sent = 0.0;
     /// Whether the sweeps before have left so little light that a drift would be over.
     bool Over = false;
+    /// Whether they have not where light lasts much longer than all together: it may be a small
+    /// part of that, of whose drift none is seen.
+    bool Lacks = false;
   };
   /// What a drift says of them.
   struct Verdict
@@ -62,6 +65,10 @@ private:
   double SentOf(const std::vector<PowerBalance::Powers>& powers) const;
   /// Share of the light, where it is darkest, that is sent on more often than so many times.
   double Lacking(double sent, int sweeps) const;
+  /// Share of the light, where it lasts longest, that is sent on more often than so many times.
+  double LackingWhereItLasts(int sweeps) const;
+  /// Finds how long light lasts in the parts of the scene that the first sweep lit.
+  void FindPersistence();
   void BuildUp();
   /// Scales the latest light to be in balance, where diffusion does not complete it.
   void Scale(const std::vector<PowerBalance::Powers>& powers);
@@ -81,6 +88,10 @@ private:
   double Uncounted_;
   /// Light where it is darkest over the mean.
   double Darkest_ = 1.0;
+  /// Share of the light that is there a sweep later where it lasts longest, and whether that was
+  /// balanced by itself.
+  double Lasting_ = 0.0;
+  bool Balanced_ = false;
   const PowerBalance& Balance_;
   const VeilProbes& Probes_;
   tbb::task_arena& Arena_;

@@ -19,7 +19,7 @@ namespace
 /// how many standard errors it must be. Where that is sure of some sides, it need be less so of
 /// others: a small one that is left out, such as the lamp's in a white box, is known poorly, and
 /// takes away most of what the box would come to.
-constexpr double LeastGrowth = 0.1;
+constexpr double LeastGrowth = 0.03;
 constexpr double Deviations = 3.0;
 constexpr double CompanyDeviations = 1.0;
 /// Light on darker surfaces than this, or in darker smoke, settles by itself.
@@ -117,11 +117,17 @@ void SlowLight::Watch(std::vector<BatchState>& batches, WatchedPlaces places)
   {
     BatchState& state = batches[batch];
     state.Watched = {};
-    state.WatchedAtSides.assign(places.Sides.size(), 0.0F);
-    state.FirstWatchedAt = first(batch);
-    state.WatchedAtCells.assign(first(batch + 1) - first(batch), 0.0F);
+    state.AtSides.assign(places.Sides.size(), {});
+    state.FirstCell = first(batch);
+    state.AtCells.assign(first(batch + 1) - first(batch), {});
   }
   this->Sweep_.Watch(std::move(places));
+}
+
+//--------------------------------------------------------------------------------------------------
+void SlowLight::Stop(std::vector<BatchState>& batches)
+{
+  this->Watch(batches, WatchedPlaces());
 }
 
 //--------------------------------------------------------------------------------------------------
@@ -134,48 +140,36 @@ bool SlowLight::Refine(std::vector<BatchState>& batches)
   WatchedPlaces places = this->Sweep_.Watched();
   double changed = 0.0;
   bool any = false;
-  const auto decide = [&](std::uint8_t& watched, double own, double all)
+  const auto decide = [&](std::uint8_t& watched, const MetLight& met)
   {
-    const bool belongs = own > LeastOwn * all;
+    const bool belongs = met.Watched > LeastOwn * met.All;
     if (belongs != (watched != 0))
     {
-      changed += belongs ? own : all - own;
+      changed += belongs ? met.Watched : met.All - met.Watched;
       watched = belongs;
     }
     any = any || belongs;
   };
   for (std::size_t side = 0; side < places.Sides.size(); ++side)
   {
-    double own = 0.0;
-    double all = 0.0;
+    MetLight met;
     for (const BatchState& batch : batches)
     {
-      own += batch.WatchedAtSides[side] / batch.Watched.Sweeps / Batches;
-      all += batch.IlluminanceSum[side] / static_cast<float>(batch.Counted) / Batches;
+      met.Watched += batch.AtSides[side].Watched;
+      met.All += batch.AtSides[side].All;
     }
-    if (this->Scene_.PatchReflectance(side / 2)[this->Band_] > LeastReflectance)
-    {
-      decide(places.Sides[side], own, all * this->Scene_.ExposedArea(side / 2, side % 2));
-    }
-  }
-  const Medium& smoke = this->Scene_.Smoke();
-  for (const BatchState& batch : batches)
-  {
-    for (std::size_t i = 0; i < batch.WatchedAtCells.size(); ++i)
-    {
-      const std::int64_t cell = batch.FirstWatchedAt + static_cast<std::int64_t>(i);
-      const double size = this->Scene_.Albedo() > LeastReflectance
-                            ? smoke.Extinction(cell) * this->Scene_.ExtinctionScale(this->Band_) *
-                                smoke.OwnVolume(cell)
-                            : 0.0;
-      decide(places.Cells[cell], batch.WatchedAtCells[i] / batch.Watched.Sweeps,
-        size * batch.FluenceSum[cell] / batch.Counted);
-    }
+    decide(places.Sides[side], met);
   }
   double lost = 0.0;
   for (const BatchState& batch : batches)
   {
-    lost += batch.Watched.Lost / batch.Watched.Sweeps / Batches;
+    for (std::size_t i = 0; i < batch.AtCells.size(); ++i)
+    {
+      // Of one batch, so that it stands for all.
+      decide(places.Cells[batch.FirstCell + static_cast<std::int64_t>(i)],
+        {Batches * batch.AtCells[i].Watched, Batches * batch.AtCells[i].All});
+    }
+    lost += batch.Watched.Lost;
   }
   if (!(changed > LeastChange * lost))
   {

@@ -38,6 +38,9 @@ public:
   /// @return whether enough of their light was seen for that
   bool Balance(std::vector<BatchState>& batches);
 
+  /// Watches nothing from now on.
+  void Stop(std::vector<BatchState>& batches);
+
 private:
   /// Watches these from now on.
   void Watch(std::vector<BatchState>& batches, WatchedPlaces places);
