@@ -96,6 +96,7 @@ public:
   };
   Holding HeldByWatched(const BatchState& state) const;
 
+  const PatchGroups& Groups() const { return this->Groups_; }
   const ThickCells& Thick() const { return this->Thick_; }
   /// Blocks that complete what whole sweeps find; none where little is scattered often.
   const std::optional<DiffusionBlocks>& Blocks() const { return this->Blocks_; }

@@ -239,25 +239,30 @@ void MultipleSolve::Band(int band)
   const double begin = this->From_ + part * band;
   const double end = begin + SweepShare * part;
   std::optional<BatchSweeps> drawn;
-  const auto settle = [&](double from)
+  int settling = 0;
+  const auto solve = [&](double from)
   {
     drawn.emplace(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
       this->Team_, this->Arena_, this->Progress_, BatchSweeps::ProgressSpan{from, end});
     Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
       this->Arena_, *drawn)
       .Run();
+    settling = drawn->Done() - drawn->Counted();
+    if (!drawn->Diverges())
+    {
+      this->Refine(*drawn, probes);
+    }
   };
-  settle(begin);
-  if (drawn->Diverges())
+  solve(begin);
+  if (sweep->Blocks() &&
+      (drawn->Diverges() || !balance.RoughlyBalanced(balance.Of(drawn->States()))))
   {
     this->Say(name + "sweeps given up", drawn->Done(),
       "diffusion does not complete this light: sweeps alone build it up");
     sweep->LeaveOutBlocks();
-    settle(drawn->Reached());
+    solve(drawn->Reached());
   }
   BatchSweeps& sweeps = *drawn;
-  const int settling = sweeps.Done() - sweeps.Counted();
-  this->Refine(sweeps, probes);
   if (!(probes.WholeError(sweeps.States()) <= LargestError))
   {
     throw Error("light field",

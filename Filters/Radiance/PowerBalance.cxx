@@ -37,9 +37,20 @@ double RelativeError(const DoubleLanes& values)
 {
   return StandardError(values) / std::abs(Mean(values));
 }
+/// Share of the light that is emitted by which what is lost may differ from it, where diffusion
+/// completes it, and its standard error: else that has gone astray.
+constexpr double RoughImbalance = 0.5;
 /// Light that is emitted, by so many times of which what is lost may differ from it: what few lines
 /// find may be noise, but no more than this.
 constexpr double MostImbalance = 1000.0;
+
+DoubleLanes LossesOf(const std::vector<PowerBalance::Powers>& powers)
+{
+  DoubleLanes losses{};
+  std::transform(powers.begin(), powers.end(), losses.begin(),
+    [](const PowerBalance::Powers& own) { return own.Lost; });
+  return losses;
+}
 
 } // namespace
 
@@ -163,15 +174,22 @@ void PowerBalance::ExpectLoss(const std::vector<Powers>& powers) const
   }
 }
 
+bool PowerBalance::Balanced(const DoubleLanes& losses, double imbalance) const
+{
+  return std::abs(Mean(losses) - this->Source_) <= imbalance * this->Source_ &&
+         StandardError(losses) <= imbalance * this->Source_;
+}
+
+bool PowerBalance::RoughlyBalanced(const std::vector<Powers>& powers) const
+{
+  return this->Sky_ || this->Balanced(LossesOf(powers), RoughImbalance);
+}
+
 void PowerBalance::ExpectBalance(const std::vector<Powers>& powers) const
 {
-  DoubleLanes losses;
-  std::transform(
-    powers.begin(), powers.end(), losses.begin(), [](const Powers& own) { return own.Lost; });
+  const DoubleLanes losses = LossesOf(powers);
   const double lost = Mean(losses);
-  const bool balanced = std::abs(lost - this->Source_) <= MostImbalance * this->Source_ &&
-                        StandardError(losses) <= MostImbalance * this->Source_;
-  if (this->Source_ > 0.0 && !this->Sky_ && !balanced)
+  if (this->Source_ > 0.0 && !this->Sky_ && !this->Balanced(losses, MostImbalance))
   {
     throw Error("light field",
       "the light did not settle: of " + std::to_string(this->Source_) + " lm that are scattered " +

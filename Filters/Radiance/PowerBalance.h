@@ -51,6 +51,8 @@ public:
     const std::vector<Powers>& powers, double Powers::*by = &Powers::SentAgain) const;
   /// Throws Error where hardly any light is ever lost.
   void ExpectLoss(const std::vector<Powers>& powers) const;
+  /// Whether what is lost is about what is emitted; true under a sky, of which that is not known.
+  bool RoughlyBalanced(const std::vector<Powers>& powers) const;
   /// Throws Error where what is lost is far from what is emitted: light that does not settle.
   void ExpectBalance(const std::vector<Powers>& powers) const;
   /// Scales the latest estimates by the means of the sweeps that count. Slow light stays for long
@@ -88,6 +90,8 @@ private:
 
   /// Whether no light leaves the scene, but for what rounding lets through corners.
   static bool Closed(const std::vector<Powers>& powers);
+  /// Whether what the batches lose is what is emitted, and known, to a share of that.
+  bool Balanced(const DoubleLanes& losses, double imbalance) const;
   Scales ScalesOf(const std::vector<Powers>& powers) const;
   /// @param share of the spread of the batches that must be left at most
   /// @param always or else whatever is left

@@ -29,6 +29,9 @@ constexpr double LeastDirect = 1e-5;
 /// What is lost of the light where it lasts longest over what is lost of all, below which it is not
 /// balanced with the rest.
 constexpr double ShorterShare = 0.5;
+/// What places lose that were balanced by themselves, over what is lost where light lasts longest,
+/// below which they are those.
+constexpr double SlowestLoss = 3.0;
 /// Light that was sent on so often is taken to lie evenly all over the scene.
 constexpr double EvenOrders = 4.0;
 /// Share of the tolerance that the drift from window to window may be.
@@ -241,6 +244,11 @@ void Settling::Run()
       const BlockMeans::Drift drift =
         (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Tolerance_);
       verdict = this->Judge(drift, window);
+        printf("done %d win %d before %d drift %g [%g %g] sent %g lasting %g lacks %d over %d tol "
+               "%d settled %d grows %d\n",
+          this->Sweeps_.Done(), window.Sweeps, window.Before, drift.Estimate, drift.LowerBound,
+          drift.UpperBound, window.Sent, this->Lasting_, (int)window.Lacks, (int)window.Over,
+          (int)verdict.Tolerable, (int)verdict.Settled, (int)verdict.Grows);
       const bool most = this->Sweeps_.Done() + 2 * window.Sweeps > MostSweeps;
       if (most && !verdict.Settled)
       {
@@ -266,12 +274,14 @@ void Settling::Run()
     {
       this->Scale(powers);
     }
-    else if (slow.Balance(states))
+    else if (const SlowLight::Outcome outcome = slow.Balance(states);
+             outcome != SlowLight::Outcome::Unknown)
     {
       // What was seen before does not compare with that.
-      this->Balanced_ = true;
+      this->Balanced_ =
+        this->Balanced_ || (outcome == SlowLight::Outcome::Balanced &&
+                             slow.LossShare() < SlowestLoss * (1.0 - this->Lasting_));
       earlier.reset();
-      this->Arena_.execute([&] { slow.Watch(states, false); });
     }
     else
     {

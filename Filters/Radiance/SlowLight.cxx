@@ -6,6 +6,7 @@
 #include "Scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -33,6 +34,9 @@ constexpr double LeastChange = 0.1;
 constexpr int MostRefinements = 2;
 /// Standard error that what the light grows to may have. It shows in the spread of the batches.
 constexpr double LargestError = 0.3;
+/// How far off 1 it must be over what they held, in all and in standard errors, to be off at all.
+constexpr double LeastScaled = 0.05;
+constexpr double ScaledErrors = 2.0;
 /// A batch does not leave the mean by more than this factor, nor change at once by more than that.
 constexpr double LargestSpread = 4.0;
 constexpr double LargestScale = 1e4;
@@ -150,15 +154,22 @@ bool SlowLight::Refine(std::vector<BatchState>& batches)
     }
     any = any || belongs;
   };
-  for (std::size_t side = 0; side < places.Sides.size(); ++side)
+  std::vector<float> own(places.Sides.size(), 0.0F);
+  std::vector<float> all(places.Sides.size(), 0.0F);
+  for (const BatchState& batch : batches)
   {
-    MetLight met;
-    for (const BatchState& batch : batches)
+    for (std::size_t side = 0; side < own.size(); ++side)
     {
-      met.Watched += batch.AtSides[side].Watched;
-      met.All += batch.AtSides[side].All;
+      own[side] += batch.AtSides[side].Watched;
+      all[side] += batch.AtSides[side].All;
     }
-    decide(places.Sides[side], met);
+  }
+  // Those that share what lines bring them are watched together.
+  this->Sweep_.Groups().Average(own);
+  this->Sweep_.Groups().Average(all);
+  for (std::size_t side = 0; side < own.size(); ++side)
+  {
+    decide(places.Sides[side], {own[side], all[side]});
   }
   double lost = 0.0;
   for (const BatchState& batch : batches)
@@ -181,11 +192,11 @@ bool SlowLight::Refine(std::vector<BatchState>& batches)
 }
 
 //--------------------------------------------------------------------------------------------------
-bool SlowLight::Balance(std::vector<BatchState>& batches)
+SlowLight::Outcome SlowLight::Balance(std::vector<BatchState>& batches)
 {
   if (!this->Sweep_.Watches())
   {
-    return false;
+    return Outcome::Unknown;
   }
   const WatchedPlaces& watched = this->Sweep_.Watched();
   WatchedLight mean;
@@ -197,7 +208,7 @@ bool SlowLight::Balance(std::vector<BatchState>& batches)
   }
   if (!(mean.Held > 0.0 && mean.Lost > 0.0 && mean.Gained > 0.0))
   {
-    return false;
+    return Outcome::Unknown;
   }
   // A ratio of sums over all batches has little bias; to first order its error is the spread of
   // what each batch changes of it.
@@ -211,7 +222,7 @@ bool SlowLight::Balance(std::vector<BatchState>& batches)
   }
   if (squares > LargestError * LargestError * Batches * (Batches - 1.0))
   {
-    return false;
+    return Outcome::Unknown;
   }
   const double held =
     mean.Gained * mean.Held / mean.Lost / std::max(1, batches.front().Watched.Sweeps);
@@ -225,7 +236,17 @@ bool SlowLight::Balance(std::vector<BatchState>& batches)
     Scale(watched.Sides, static_cast<float>(scale), batch.Illuminance);
     Scale(watched.Cells, static_cast<float>(scale), batch.Fluence);
   }
-  return true;
+  // Noise may feign a change, of which a share of one is none.
+  const double error = std::sqrt(squares / (Batches * (Batches - 1.0)));
+  if (std::abs(mean.Gained / mean.Lost - 1.0) < std::max(LeastScaled, ScaledErrors * error))
+  {
+    this->LossShare_ = mean.Lost / mean.Held;
+    this->Stop(batches);
+    return Outcome::Balanced;
+  }
+  this->Refinements_ = 0;
+  this->Watch(batches, this->Sweep_.Watched());
+  return Outcome::Scaled;
 }
 
 } // namespace smokevis

@@ -34,10 +34,19 @@ public:
   /// hides how small places grow, such as a lamp in a white box, and feigns it of others.
   /// @return whether that changes much: sweeps have to show anew
   bool Refine(std::vector<BatchState>& batches);
+  enum class Outcome
+  {
+    /// Too little of their light was seen.
+    Unknown,
+    /// They held much less or more, and are watched on.
+    Scaled,
+    /// They held about what they should: they are watched no longer.
+    Balanced
+  };
   /// Scales the latest estimates of the watched places, each batch by what it found itself.
-  /// @return whether enough of their light was seen for that
-  bool Balance(std::vector<BatchState>& batches);
-
+  Outcome Balance(std::vector<BatchState>& batches);
+  /// What they lost in a sweep of what they held, when they were balanced last.
+  double LossShare() const { return this->LossShare_; }
   /// Watches nothing from now on.
   void Stop(std::vector<BatchState>& batches);
 
@@ -54,6 +63,7 @@ private:
   std::vector<float> EarlierCells_;
   /// How often the watched places were chosen anew.
   int Refinements_ = 0;
+  double LossShare_ = 1.0;
 };
 
 } // namespace smokevis
