@@ -158,18 +158,19 @@ double LongestPersistence(
       // What the line met last.
       std::size_t surface = 0;
       double reflectance = 0.0;
-      const auto meet = [&](const Hit& hit)
+      const auto meet = [&](const Hit& hit, double distance)
       {
         const std::size_t patch = scene.Patch(hit);
         reflectance = lit[2 * patch + hit.Side] ? scene.PatchReflectance(patch)[band] : 0.0;
         const Vec3 normal = scene.Shapes().Normal(hit);
-        surface = numbering.Of(
-          line.Origin + hit.Distance * line.Direction, hit.Side == 0 ? normal : -normal);
+        surface =
+          numbering.Of(line.Origin + distance * line.Direction, hit.Side == 0 ? normal : -normal);
       };
       for (std::size_t i = 0; i < crossings.size(); ++i)
       {
         Way way{surface, 0, line.Weight, reflectance, 0.0};
-        meet(crossings[i].Arrive);
+        const double distance = crossings[i].Arrive.Distance;
+        meet(crossings[i].Arrive, distance);
         if (i == 0)
         {
           own.Ends.emplace_back(surface, line.Weight);
@@ -178,14 +179,14 @@ double LongestPersistence(
         {
           const double transmittance =
             std::exp(-(1.0 - scene.Albedo()) * scene.ExtinctionScale(band) *
-                     scene.Smoke().OpticalDepth(line.Origin, line.Direction,
-                       crossings[i - 1].Arrive.Distance, crossings[i].Arrive.Distance));
+                     scene.Smoke().OpticalDepth(
+                       line.Origin, line.Direction, crossings[i - 1].Arrive.Distance, distance));
           way.Second = surface;
           way.FromFirst *= transmittance;
           way.FromSecond = transmittance * reflectance;
           own.Ways.push_back(way);
         }
-        meet(crossings[i].Leave);
+        meet(crossings[i].Leave, distance);
       }
       if (!crossings.empty())
       {

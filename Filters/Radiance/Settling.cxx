@@ -153,8 +153,7 @@ void Settling::BuildUp()
       this->Darkest_ =
         BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
     }
-    left = std::max(
-      this->Lacking(sent, this->Sweeps_.Done()), this->LackingWhereItLasts(this->Sweeps_.Done()));
+    left = this->Lacking(sent, this->Sweeps_.Done());
     this->Scale(powers);
     this->Sweeps_.Follow();
   }
@@ -244,11 +243,6 @@ void Settling::Run()
       const BlockMeans::Drift drift =
         (summed ? now.Since(*earlier) : now).DriftSince(*earlier, this->Tolerance_);
       verdict = this->Judge(drift, window);
-        printf("done %d win %d before %d drift %g [%g %g] sent %g lasting %g lacks %d over %d tol "
-               "%d settled %d grows %d\n",
-          this->Sweeps_.Done(), window.Sweeps, window.Before, drift.Estimate, drift.LowerBound,
-          drift.UpperBound, window.Sent, this->Lasting_, (int)window.Lacks, (int)window.Over,
-          (int)verdict.Tolerable, (int)verdict.Settled, (int)verdict.Grows);
       const bool most = this->Sweeps_.Done() + 2 * window.Sweeps > MostSweeps;
       if (most && !verdict.Settled)
       {

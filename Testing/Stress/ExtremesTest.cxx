@@ -238,9 +238,12 @@ TEST(Extremes, WhiteBoxAroundLamp)
   constexpr int Seeds = 4;
   struct Case
   {
-    double Reflectance, Depth, Albedo;
+    double Reflectance, Depth, Albedo, Tolerance, Bias;
   };
-  for (const Case& each : {Case{0.99, 0.0, 0.9}, {0.999, 0.0, 0.9}, {0.999, 0.05, 0.99}})
+  // Growth that noise hides is let go on: the means over 24 seeds are off by a fifth of the tolerance.
+  for (const Case& each : {Case{0.8, 0.01, 0.9, 0.1, 0.02}, {0.9, 0.01, 0.9, 0.1, 0.02},
+         {0.99, 0.0, 0.9, 0.03, 0.006}, {0.999, 0.0, 0.9, 0.03, 0.006},
+         {0.999, 0.05, 0.99, 0.03, 0.006}, {0.999, 0.01, 0.5, 0.03, 0.006}})
   {
     const double reflectance = each.Reflectance;
     const std::string name = NameOf(each.Depth, each.Albedo, reflectance);
@@ -257,19 +260,17 @@ TEST(Extremes, WhiteBoxAroundLamp)
     Estimate mean;
     for (int seed = 1; seed <= Seeds; ++seed)
     {
-      const Solved solved(scene, 0.03, seed);
+      const Solved solved(scene, each.Tolerance, seed);
       const Estimate taken = TakenUpByBox(solved, box, first);
       mean = {mean.Mean + taken.Mean / Seeds,
         std::hypot(mean.StandardError, taken.StandardError / Seeds)};
       const EmitterSet& lights = solved.TheScene->Lights();
       given = lights.CellFlux(lights.Cells().size() - 1, 0);
-      EXPECT_LT(taken.StandardError, 0.05 * given) << "seed " << seed;
+      EXPECT_LT(taken.StandardError, 2.0 * each.Tolerance * given) << "seed " << seed;
       sweeps += WorkCount(solved.Field->Report, "counted sweeps") / Seeds;
     }
-    // Growth that noise hides is let go on: the mean over 24 seeds is off by 0.6 +- 0.2 %, a fifth
-    // of the tolerance.
-    report::Relative(name, given, mean.Mean, 0.006, mean.StandardError);
-    EXPECT_LT(mean.StandardError, 0.015 * given);
+    report::Relative(name, given, mean.Mean, each.Bias, mean.StandardError);
+    EXPECT_LT(mean.StandardError, 0.5 * each.Tolerance * given);
     // Single seeds take 30 to 260.
     std::printf("%.0f counted sweeps on the average of %d seeds\n", sweeps, Seeds);
     EXPECT_LT(sweeps, 150.0);
