@@ -196,9 +196,9 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   // the sums lack of what is sent on.
   const double lacking = this->Lacking(window.Sent, window.Before) /
                          std::max(1.0, (1.0 - this->Kept(window.Sent)) * this->Sweeps_.Counted());
-  verdict.Settled = verdict.Tolerable && (drift.Estimate <= DriftErrors * error ||
-                                           (drift.IsNoise() && lacking <= LackingErrors * error));
-  verdict.Settled = verdict.Settled && !window.Lacks;
+  verdict.Settled = verdict.Tolerable && !window.Lacks &&
+                    (drift.Estimate <= DriftErrors * error ||
+                      (drift.IsNoise() && lacking <= LackingErrors * error));
   verdict.Grows =
     (verdict.Drifts || window.Lacks) && !verdict.Settled && window.Sweeps >= SlowWindow;
   return verdict;
