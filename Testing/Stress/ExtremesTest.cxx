@@ -266,11 +266,11 @@ TEST(Extremes, WhiteBoxAroundLamp)
         std::hypot(mean.StandardError, taken.StandardError / Seeds)};
       const EmitterSet& lights = solved.TheScene->Lights();
       given = lights.CellFlux(lights.Cells().size() - 1, 0);
-      EXPECT_LT(taken.StandardError, 2.0 * each.Tolerance * given) << "seed " << seed;
+      EXPECT_LT(taken.StandardError, 0.05 * given) << "seed " << seed;
       sweeps += WorkCount(solved.Field->Report, "counted sweeps") / Seeds;
     }
     report::Relative(name, given, mean.Mean, each.Bias, mean.StandardError);
-    EXPECT_LT(mean.StandardError, 0.5 * each.Tolerance * given);
+    EXPECT_LT(mean.StandardError, 0.015 * given);
     std::printf("%.0f counted sweeps on the average of %d seeds\n", sweeps, Seeds);
     EXPECT_LT(sweeps, 150.0);
   }
