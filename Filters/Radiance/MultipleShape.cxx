@@ -1,6 +1,9 @@
 #include "MultipleShape.h"
 
+#include "OwnGlow.h"
 #include "Scene.h"
+
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -30,13 +33,20 @@ std::vector<float> WellKnownMeans(const LightField& field, int band)
   return means;
 }
 
-CellShape ShapeOfMultiple(const Scene& scene, const std::vector<float>& means)
+CellShape ShapeOfMultiple(const Scene& scene, int band, const std::vector<float>& means)
 {
   if (scene.Albedo() == 0.0)
   {
     return {};
   }
-  return {scene, [&means](std::int64_t, std::int64_t cell) { return means[cell]; }};
+  const OwnGlow glow(scene, band);
+  return {scene, [&](std::int64_t cell, std::int64_t other)
+    {
+      const float own = means[cell];
+      const float there = means[other];
+      const double share = own > 0.0F && there > 0.0F ? glow.VaryingShare(cell, own) : 1.0;
+      return share < 1.0 ? static_cast<float>(own * std::pow(there / own, share)) : there;
+    }};
 }
 
 } // namespace smokevis

@@ -16,6 +16,6 @@ class Scene;
 std::vector<float> WellKnownMeans(const LightField& field, int band);
 
 /// Shapes from those means; none where nothing scatters.
-CellShape ShapeOfMultiple(const Scene& scene, const std::vector<float>& means);
+CellShape ShapeOfMultiple(const Scene& scene, int band, const std::vector<float>& means);
 
 } // namespace smokevis

@@ -40,6 +40,22 @@ constexpr double SweepShare = 0.9;
 /// Optical depth of scattering on the mean chord of a cell above which sources in it vary by more
 /// than what is linear.
 constexpr double CoarseDepth = 1.0;
+/// Standard errors that noise may bring light below zero by.
+constexpr double NoiseDeviations = 3.0;
+
+/// Raises what is not direct of some light, where all of it is below zero by more than noise, to
+/// where all of it is zero: the batches' spread stays.
+void RaiseToDark(float direct, Lanes& lanes)
+{
+  const double light = direct + Mean(lanes);
+  if (light < 0.0 && light < -NoiseDeviations * StandardError(lanes))
+  {
+    for (float& value : lanes.Value)
+    {
+      value -= static_cast<float>(light);
+    }
+  }
+}
 
 std::size_t CoarseCells(const Scene& scene, int band)
 {
@@ -117,7 +133,8 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
 {
   const std::vector<BatchState>& states = sweeps.States();
   const auto counted = static_cast<float>(sweeps.Counted());
-  const auto keep = [&](std::vector<float> BatchState::*sums, std::size_t count, Lanes* lanes)
+  const auto keep = [&](std::vector<float> BatchState::*sums, const std::vector<float>& direct,
+                      std::size_t first, std::size_t count, std::vector<Lanes>& kept)
   {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
       [&](const tbb::blocked_range<std::size_t>& range)
@@ -127,18 +144,23 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
           const float* const sum = (states[batch].*sums).data();
           for (std::size_t i = range.begin(); i < range.end(); ++i)
           {
-            lanes[i][batch] = sum[i] / counted;
+            kept[first + i][batch] = sum[i] / counted;
           }
+        }
+        for (std::size_t i = first + range.begin(); i < first + range.end(); ++i)
+        {
+          RaiseToDark(direct[i], kept[i]);
         }
       });
   };
   this->Arena_.execute(
     [&]
     {
-      keep(&BatchState::FluenceSum, this->Field_.Cells,
-        this->Field_.MultipleFluence.data() + this->Field_.CellIndex(band, 0));
-      keep(&BatchState::IlluminanceSum, 2 * this->Field_.Patches,
-        this->Field_.MultipleIlluminance.data() + this->Field_.PatchIndex(band, 0, 0));
+      keep(&BatchState::FluenceSum, this->Field_.DirectFluence, this->Field_.CellIndex(band, 0),
+        this->Field_.Cells, this->Field_.MultipleFluence);
+      keep(&BatchState::IlluminanceSum, this->Field_.DirectIlluminance,
+        this->Field_.PatchIndex(band, 0, 0), 2 * this->Field_.Patches,
+        this->Field_.MultipleIlluminance);
     });
 }
 

@@ -40,7 +40,8 @@ private:
   double LargestShare(int band, const VeilProbes& toSigns) const;
   /// Draws sweeps until the error of the veil meets the tolerance; sources' shapes follow them.
   void Refine(BatchSweeps& sweeps, const VeilProbes& probes) const;
-  /// Keeps the means of the sums.
+  /// Keeps the means of the sums. Where diffusion took away more light than there was, which is
+  /// where next to none comes, none is left.
   void Keep(int band, const BatchSweeps& sweeps);
   /// Lets plates gather light that lines would rarely bring. Where no light leaves the scene, all
   /// is scaled to be in balance with them.

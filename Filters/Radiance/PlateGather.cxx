@@ -93,7 +93,8 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
   {
     return {0, 0};
   }
-  const CellShape shape = ShapeOfMultiple(this->Scene_, WellKnownMeans(this->Field_, this->Band_));
+  const CellShape shape =
+    ShapeOfMultiple(this->Scene_, this->Band_, WellKnownMeans(this->Field_, this->Band_));
   const IndirectLight indirect(this->Scene_, this->Field_, this->Direct_, shape, this->Band_,
     IndirectLight::Reflection::OfPlaces);
   // Signs see each other as the lines left them, whichever is gathered first.

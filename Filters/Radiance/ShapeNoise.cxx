@@ -1,6 +1,7 @@
 #include "ShapeNoise.h"
 
 #include "ExponentialMean.h"
+#include "OwnGlow.h"
 #include "Scene.h"
 #include "SlopeWeights.h"
 
@@ -20,8 +21,8 @@ constexpr double SteepestChange = (1.0 - 1e-6) * CellShape::SteepestChange;
 
 } // namespace
 
-ShapeNoise::ShapeNoise(
-  const Scene& scene, const Lanes* lanes, const std::vector<float>& means, const CellShape& shape)
+ShapeNoise::ShapeNoise(const Scene& scene, int band, const Lanes* lanes,
+  const std::vector<float>& means, const CellShape& shape)
     : Open_(&scene.Open()), Lanes_(lanes), InverseMeans_(means.size()), Responses_(means.size()),
       Lower_(scene.Smoke().Lower())
 {
@@ -32,6 +33,7 @@ ShapeNoise::ShapeNoise(
       this->InverseMeans_[cell] = means[cell] > 0.0F && std::isfinite(inverse) ? inverse : 0.0F;
     });
   const SlopeWeights weights(scene);
+  const OwnGlow glow(scene, band);
   tbb::parallel_for(std::size_t{0}, means.size(),
     [&](std::size_t cell)
     {
@@ -39,14 +41,15 @@ ShapeNoise::ShapeNoise(
       if (this->InverseMeans_[cell] > 0.0F &&
           scene.Smoke().Extinction(static_cast<std::int64_t>(cell)) > 0.0F)
       {
-        this->Responses_[cell] =
-          this->Find(scene, static_cast<std::int64_t>(cell), weights, means[cell], shape);
+        const auto index = static_cast<std::int64_t>(cell);
+        const double varying = means[cell] * glow.VaryingShare(index, means[cell]);
+        this->Responses_[cell] = this->Find(scene, index, weights, varying, shape);
       }
     });
 }
 
 ShapeNoise::Response ShapeNoise::Find(const Scene& scene, std::int64_t cell,
-  const SlopeWeights& weights, float mean, const CellShape& shape) const
+  const SlopeWeights& weights, double mean, const CellShape& shape) const
 {
   const Vec3 centre = scene.Smoke().CellCentre(cell);
   const Vec3 size = scene.Smoke().CellSize(cell);

@@ -29,7 +29,7 @@ public:
   /// @param lanes batches of the field, a value a cell; must outlive this
   /// @param means of the batches, 0 in cells that shapes leave out
   /// @param shape from those means
-  ShapeNoise(const Scene& scene, const Lanes* lanes, const std::vector<float>& means,
+  ShapeNoise(const Scene& scene, int band, const Lanes* lanes, const std::vector<float>& means,
     const CellShape& shape);
 
   /// Adds weight times what the batches of the neighbours change at a point of a cell.
@@ -69,7 +69,8 @@ private:
     std::array<float, 3> Still{};
   };
 
-  Response Find(const Scene& scene, std::int64_t cell, const SlopeWeights& weights, float mean,
+  /// @param mean of what varies in the cell as between cells
+  Response Find(const Scene& scene, std::int64_t cell, const SlopeWeights& weights, double mean,
     const CellShape& shape) const;
 
   const OpenFaces* Open_ = nullptr;

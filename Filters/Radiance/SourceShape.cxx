@@ -7,6 +7,7 @@
 #include "LargePages.h"
 #include "LineSweep.h"
 #include "OpenFaces.h"
+#include "OwnGlow.h"
 #include "SlopeWeights.h"
 
 #include <algorithm>
@@ -91,6 +92,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
     }
   }
   const SlopeWeights weights(scene);
+  const OwnGlow glow(scene, band);
   ReserveInLargePages(shaped.size(), this->Cells_);
   this->Cells_.resize(shaped.size());
   ReserveInLargePages(shaped.size(), this->Measures_);
@@ -110,6 +112,7 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
           mayBeSteep, Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         Measures& own = this->Measures_[i];
+        own.Glow = static_cast<float>(glow.Fluence(cell));
         for (int axis = 0; axis < 3; ++axis)
         {
           std::array<std::int64_t, 2> beside{};
@@ -165,6 +168,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
         const auto value = [&](std::int64_t there)
         { return means[there] + (varies ? 0.0F : this->DirectFluence_[there]); };
         const float here = value(cell);
+        const float share = here > own.Glow ? 1.0F - own.Glow / here : 0.0F;
         Slope slope{};
         float change = 0.0F;
         for (int axis = 0; axis < 3; ++axis)
@@ -172,10 +176,10 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
           const float low = value(this->Beside(cell, axis, 0));
           const float high = value(this->Beside(cell, axis, 1));
           // Light falls off exponentially.
-          slope[axis] =
-            low > 0.0F && here > 0.0F && high > 0.0F
-              ? Rise(low, here) * own.Factors[axis][0] + Rise(here, high) * own.Factors[axis][1]
-              : 0.0F;
+          slope[axis] = low > 0.0F && here > 0.0F && high > 0.0F
+                          ? share * (Rise(low, here) * own.Factors[axis][0] +
+                                      Rise(here, high) * own.Factors[axis][1])
+                          : 0.0F;
           change += std::abs(slope[axis]) * own.Half[axis];
         }
         Shaped& shaped = this->Cells_[i];

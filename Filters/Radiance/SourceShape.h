@@ -80,6 +80,8 @@ private:
     std::array<std::array<float, 2>, 3> Factors;
     /// Half the cell's edges [m].
     std::array<float, 3> Half;
+    /// Of its fluence what is even in it (OwnGlow) [lx].
+    float Glow;
   };
 
   /// The neighbour that tells a slope, or the cell itself where there is none: the middle of what

@@ -62,8 +62,8 @@ struct View::Implementation
     for (int band = 0; band < field.Bands && scene.Albedo() > 0.0; ++band)
     {
       const std::vector<float> means = WellKnownMeans(field, band);
-      this->MultipleShape[band] = ShapeOfMultiple(scene, means);
-      this->MultipleNoise[band] = ShapeNoise(scene,
+      this->MultipleShape[band] = ShapeOfMultiple(scene, band, means);
+      this->MultipleNoise[band] = ShapeNoise(scene, band,
         field.MultipleFluence.data() + field.CellIndex(band, 0), means, this->MultipleShape[band]);
       this->Indirect[band] = std::make_unique<IndirectLight>(scene, field, this->DirectFluence,
         this->MultipleShape[band], band, IndirectLight::Reflection::OfPatches);

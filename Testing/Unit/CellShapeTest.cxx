@@ -96,7 +96,7 @@ Lanes ValueAt(const Scene& scene, const std::vector<Lanes>& field, const Vec3& p
   {
     value[batch] = static_cast<float>(weight * field[1][batch]);
   }
-  ShapeNoise(scene, field.data(), means, shape).Add(1, point, weight, value);
+  ShapeNoise(scene, 0, field.data(), means, shape).Add(1, point, weight, value);
   return value;
 }
 
