@@ -25,4 +25,16 @@ void BatchState::Restart()
   this->Counted = 0;
 }
 
+Lanes MeansOf(
+  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, std::size_t place)
+{
+  Lanes means;
+  for (int batch = 0; batch < Batches; ++batch)
+  {
+    means[batch] =
+      (batches[batch].*sums)[place] / static_cast<float>(std::max(1, batches[batch].Counted));
+  }
+  return means;
+}
+
 } // namespace smokevis

@@ -1,6 +1,8 @@
 // What one batch of random lines knows of the light field.
 #pragma once
 
+#include "Types.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -57,5 +59,9 @@ struct BatchState
   /// Forgets the sums, not the latest estimate.
   void Restart();
 };
+
+/// Means of the sums of a place over the sweeps that each batch counts.
+Lanes MeansOf(
+  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, std::size_t place);
 
 } // namespace smokevis

@@ -104,11 +104,7 @@ void Settling::FindPersistence()
   double area = 0.0;
   for (std::size_t side = 0; side < scattered.size(); ++side)
   {
-    Lanes own;
-    for (int batch = 0; batch < Batches; ++batch)
-    {
-      own[batch] = states[batch].IlluminanceSum[side];
-    }
+    const Lanes own = MeansOf(states, &BatchState::IlluminanceSum, side);
     // A line that slips in where two boxes meet lights nothing to speak of: of the batches whose
     // lines met a side, half have to find light there.
     const auto found = std::count_if(

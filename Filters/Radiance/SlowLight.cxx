@@ -41,18 +41,6 @@ constexpr double ScaledErrors = 2.0;
 constexpr double LargestSpread = 4.0;
 constexpr double LargestScale = 1e4;
 
-Lanes Means(
-  const std::vector<BatchState>& batches, std::vector<float> BatchState::*sums, std::size_t place)
-{
-  Lanes means;
-  for (int batch = 0; batch < Batches; ++batch)
-  {
-    means[batch] =
-      (batches[batch].*sums)[place] / static_cast<float>(std::max(1, batches[batch].Counted));
-  }
-  return means;
-}
-
 void Scale(const std::vector<std::uint8_t>& places, float scale, std::vector<float>& light)
 {
   for (std::size_t place = 0; place < places.size(); ++place)
@@ -81,7 +69,7 @@ void SlowLight::Watch(std::vector<BatchState>& batches, bool grows)
   bool any = false;
   for (std::size_t side = 0; side < sides; ++side)
   {
-    const Lanes now = Means(batches, &BatchState::IlluminanceSum, side);
+    const Lanes now = MeansOf(batches, &BatchState::IlluminanceSum, side);
     Lanes& earlier = this->EarlierSides_[side];
     if (compares && this->Scene_.PatchReflectance(side / 2)[this->Band_] > LeastReflectance)
     {
@@ -99,7 +87,7 @@ void SlowLight::Watch(std::vector<BatchState>& batches, bool grows)
   ForEachCell(cells,
     [&](std::int64_t cell)
     {
-      const Lanes lanes = Means(batches, &BatchState::FluenceSum, cell);
+      const Lanes lanes = MeansOf(batches, &BatchState::FluenceSum, cell);
       const double now = Mean(lanes);
       const double rise = now - this->EarlierCells_[cell];
       watched.Cells[cell] = this->Scene_.Albedo() > LeastReflectance &&
