@@ -103,15 +103,14 @@ SourceShape::SourceShape(const Scene& scene, const LightField& field, const Dire
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
         const std::int64_t cell = shaped[i];
-        // Only over a whole box the mean of an exponential is known.
-        const bool mayBeSteep =
-          extinction[cell] * smoke.MeanChord(cell) > ThinnestSteep &&
-          extinction[cell] * LargestEdge(smoke.CellSize(cell)) < LongestSteep &&
-          !smoke.Parts().Find(cell);
-        this->Cells_[i] = {cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band),
-          mayBeSteep, Slope{}};
+        this->Cells_[i] = {
+          cell, smoke.CellCentre(cell) - smoke.Lower(), direct.Varies(cell, band), Slope{}};
         const Vec3 half = 0.5 * smoke.CellSize(cell);
         Measures& own = this->Measures_[i];
+        // Only over a whole box the mean of an exponential is known.
+        own.MayBeSteep = extinction[cell] * smoke.MeanChord(cell) > ThinnestSteep &&
+                         extinction[cell] * LargestEdge(smoke.CellSize(cell)) < LongestSteep &&
+                         !smoke.Parts().Find(cell);
         own.Glow = static_cast<float>(glow.Fluence(cell));
         for (int axis = 0; axis < 3; ++axis)
         {
@@ -184,7 +183,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
         }
         Shaped& shaped = this->Cells_[i];
         shaped.Middle = 0.0F;
-        if (change > SteepChange && shaped.MayBeSteep)
+        if (change > SteepChange && own.MayBeSteep)
         {
           steep[cell] = 1;
           for (int axis = 0; axis < 3; ++axis)

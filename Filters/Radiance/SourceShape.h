@@ -52,8 +52,6 @@ public:
     Vec3 Place{0.0};
     /// Whether direct light is known inside the cell: the shape is that of the rest.
     bool DirectVaries = false;
-    /// Whether it may be steep.
-    bool MayBeSteep = false;
     Slope Change{};
     /// Logarithm of a steep source over its mean, in the middle of the cell.
     float Middle = 0.0F;
@@ -80,6 +78,8 @@ private:
     std::array<std::array<float, 2>, 3> Factors;
     /// Half the cell's edges [m].
     std::array<float, 3> Half;
+    /// Whether its source may be steep.
+    bool MayBeSteep;
     /// Of its fluence what is even in it (OwnGlow) [lx].
     float Glow;
   };
