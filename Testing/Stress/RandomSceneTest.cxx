@@ -307,6 +307,21 @@ TEST(RandomScenes, LightThatDidNotSettle)
   }
 }
 
+// Where next to no light comes, diffusion takes away more than there is.
+TEST(RandomScenes, LightBelowNone)
+{
+  for (const std::uint64_t seed : {8034U, 10319U})
+  {
+    RunScenes(seed, 1, 2 * seed);
+  }
+}
+
+// An eye in an opaque cell sees its glow, whatever is dark beyond.
+TEST(RandomScenes, EyeInGlowingCell)
+{
+  RunScenes(7006, 1, 2 * 7006);
+}
+
 TEST(RandomScenes, HundredLong)
 {
   RunScenes(41, 100, 2);
