@@ -27,9 +27,14 @@ public:
   /// Mean of the field in the second cell, as the first, its neighbour, sees it; 0: not known.
   using Means = std::function<float(std::int64_t, std::int64_t)>;
 
+  /// Whether a field comes to an end in a plane close to a side of a cell, 0: low, 1: high, of an
+  /// axis, as the light of a plate does in the plate's plane.
+  using Ends = std::function<bool(std::int64_t, int, int)>;
+
   /// A field that does not vary.
   CellShape() = default;
-  CellShape(const Scene& scene, const Means& means);
+  /// @param ends none: nowhere
+  CellShape(const Scene& scene, const Means& means, const Ends& ends = nullptr);
 
   /// Has the processor fetch what Value() reads.
   void Fetch(std::int64_t cell) const

@@ -4,6 +4,7 @@
 #include "Scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,49 @@ namespace
 constexpr double FlatDepth = 0.41;
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
+/// Cosine of the angle to an axis up to which a plate faces along it.
+constexpr double AlongAxis = 0.99;
+
+/// The planes of plates that face along an axis: there their light falls off to nothing.
+class LightPlanes
+{
+public:
+  explicit LightPlanes(const EmitterSet& lights)
+  {
+    for (std::size_t light = 0; light < lights.Lights().size(); ++light)
+    {
+      const LightGroup& root = lights.Root(light);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (std::abs(root.Normal[axis]) > AlongAxis && root.Plane() && !root.Law.Measured())
+        {
+          this->Places_[Index(axis, root.Normal[axis] > 0.0 ? 0 : 1)].push_back(root.Centre[axis]);
+        }
+      }
+    }
+    for (std::vector<double>& places : this->Places_)
+    {
+      std::sort(places.begin(), places.end());
+    }
+  }
+
+  /// Whether one lies between the middle of a box and half the box beyond a side of it, and faces
+  /// the box.
+  bool AtEndOf(const Box& box, int axis, int side) const
+  {
+    const double middle = box.Centre()[axis];
+    const double beyond = middle + (side == 0 ? -1.0 : 1.0) * box.Size()[axis];
+    const std::vector<double>& places = this->Places_[Index(axis, side)];
+    const auto first = std::lower_bound(places.begin(), places.end(), std::min(middle, beyond));
+    return first != places.end() && *first <= std::max(middle, beyond);
+  }
+
+private:
+  /// Of plates that face away from a side of cells.
+  static int Index(int axis, int side) { return 2 * axis + side; }
+
+  std::array<std::vector<double>, 6> Places_;
+};
 
 } // namespace
 
@@ -49,16 +93,20 @@ DirectField::DirectField(const Scene& scene, const LightField& field)
       { return one.Index == two.Index; });
   };
   this->FindVarying();
+  const LightPlanes planes(scene.Lights());
   for (int band = 0; band < field.Bands; ++band)
   {
     const float* all = field.DirectFluence.data() + field.CellIndex(band, 0);
     const float* others = this->Means_.data() + field.CellIndex(band, 0);
-    this->Shapes_[band] = CellShape(scene,
+    this->Shapes_[band] = CellShape(
+      scene,
       [&](std::int64_t cell, std::int64_t other)
       {
         // Without its near lights, a cell is like those that lack the same.
         return !this->Near(cell) ? all[other] : alike(cell, other) ? others[other] : 0.0F;
-      });
+      },
+      [&](std::int64_t cell, int axis, int side)
+      { return planes.AtEndOf(scene.Smoke().CellBounds(cell), axis, side); });
   }
 }
 

@@ -33,6 +33,16 @@ TEST(Langevin, IsItsSeriesNearZero)
   }
 }
 
+TEST(Langevin, HasAnInverse)
+{
+  for (const double h : {-2.0, -1.3, -1e-3, 0.0, 1e-6, 0.2, 0.9, 1.6, 1.99})
+  {
+    EXPECT_NEAR(InverseLangevin(Langevin(h)), h, 1e-5) << "h = " << h;
+  }
+  EXPECT_EQ(InverseLangevin(0.7), 2.0);
+  EXPECT_EQ(InverseLangevin(-1.5), -2.0);
+}
+
 TEST(LogarithmOfMean, IsItsClosedForm)
 {
   for (const double h : {1e-3, 0.03, 0.5, 2.0, 20.0, 700.0})

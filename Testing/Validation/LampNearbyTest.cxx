@@ -5,7 +5,9 @@
 #include "Solved.h"
 #include "TestReport.h"
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -130,6 +132,38 @@ TEST(LampNearby, InThickCells)
       const Estimate value = coarse.Fluence(Vec3(1.625, 1.625, 3.0 - height));
       report::Relative(std::to_string(height).substr(0, 5) + " m off", reference.Mean, value.Mean,
         tolerance, std::hypot(reference.StandardError, value.StandardError));
+    }
+  }
+}
+
+// Level lines of sight below the plane of a lamp, where its light falls off to nothing within a
+// cell. From afar it follows a straight line: an exponential of the same mean place is a tenth
+// above that at a fifth of the cell, a sixth below at two fifths and right at four. With the slope
+// that the next cell tells alone, veils were half as bright again at a fifth, and a sixth too dark
+// at four.
+TEST(LampNearby, LevelWithItsPlane)
+{
+  report::Head("Veil of level lines below the plane of a lamp in black walls [cd/m2]");
+  const Vec3 upper(6, 4, 3);
+  for (const double height : {2.99, 2.5})
+  {
+    SceneDescription scene;
+    scene.Albedo = 0.3;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {24, 16, 12}, 0.1)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.5, 0.0);
+    scene.Emitters = {scenes::Plate({2.1, 3.0, height}, {0, 0, -1}, {1, 0, 0}, 0.3, 0.3, 4000.0)};
+    const Solved solved(scene, 0.03);
+    const ReferenceIntegrator reference(*solved.TheScene);
+    for (const auto& [below, tolerance] : {std::pair{0.05, 0.2}, {0.1, 0.2}, {0.2, 0.08}})
+    {
+      const Vec3 eye(0.5, 0.5, height - below);
+      const Ray ray{eye, glm::normalize(Vec3(6.0, 3.8, height - below) - eye)};
+      const Estimate expected = reference.Veil(ray, 60000, 1);
+      const RayLight light = solved.Trace(ray);
+      report::Relative("plane at " + std::to_string(height).substr(0, 4) + " m, " +
+                         std::to_string(below).substr(0, 4) + " m below",
+        expected.Mean, light.Veil(), tolerance,
+        std::hypot(expected.StandardError, StandardError(light.VeilMultiple)));
     }
   }
 }
