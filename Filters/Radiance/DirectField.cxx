@@ -23,7 +23,7 @@ constexpr double FlatDepth = 0.41;
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
 /// Cosine of the angle to an axis up to which a plate faces along it.
-constexpr double AlongAxis = 0.99;
+constexpr double AlongAxis = 0.999;
 
 /// The planes of plates that face along an axis: there their light falls off to nothing.
 class LightPlanes
