@@ -4,7 +4,7 @@
 #include "LightField.h"
 #include "SceneBlocks.h"
 
-class vtkFieldData;
+class vtkDataArray;
 
 namespace smokevis
 {
@@ -22,11 +22,12 @@ namespace smokevis
 /// A cell that walls cut is in parts, each with a light of its own: its `DirectFluence` and
 /// `MultipleFluence` are those of its first part, `Fluence` is the mean over the cell. The other
 /// parts' are in the field data of the smoke block, `PartDirectFluence` and `PartMultipleFluence`.
+///
+/// Of a block that was refined all four are means over its cells. Its field data hold the number of
+/// parts of each interval between nodes along x, then y, then z, `Refinement`, and the light of the
+/// finer cells, x fastest, `RefinedDirectFluence` and `RefinedMultipleFluence`.
 /// @param smoke  of the scene that was solved
 void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks& blocks, int bands);
-
-/// Takes the light of cells' later parts out of field data of a block that is to hold other light.
-void RemoveParts(vtkFieldData& fields);
 
 /// The arrays that LoadLightField reads, in a fixed order, null where one is missing that every
 /// light field has.

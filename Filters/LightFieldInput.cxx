@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "LightFieldArrays.h"
 #include "SceneBuilder.h"
+#include "SmokeLightArrays.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -72,6 +73,10 @@ SceneDescription DescribeScene(vtkDataObject* lightField, SceneBlocks& blocks)
     throw Error("light field", "it has no block named Smoke", Remedy);
   }
   blocks.Smoke = CollectSmoke(smoke, "Smoke");
+  for (SmokeBlock& block : blocks.Smoke)
+  {
+    block.Refinement = RefinementOf(*block.Grid, block.Name);
+  }
   blocks.Surfaces = CollectSurfaces(FindBlock(lightField, "Surfaces"), "Surfaces");
   blocks.Emitters = CollectSurfaces(FindBlock(lightField, "Emitters"), "Emitters");
 

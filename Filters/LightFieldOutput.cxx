@@ -2,10 +2,10 @@
 #include "LightFieldOutput.h"
 
 #include "LightField.h"
-#include "LightFieldArrays.h"
 #include "LightFieldInput.h"
 #include "RankReport.h"
 #include "Ranks.h"
+#include "SmokeLightArrays.h"
 
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
@@ -49,7 +49,7 @@ void AddFieldsTo(vtkDataObject& target, vtkDataObject& smoke, const LightFieldRe
   vtkNew<vtkFieldData> fields;
   fields->PassData(smoke.GetFieldData());
   // Smoke may be what an earlier light field gave.
-  RemoveParts(*fields);
+  RemoveSmokeLight(*fields);
   fields->PassData(target.GetFieldData());
   target.SetFieldData(fields);
   const SceneOptions& options = record.Options;

@@ -158,7 +158,7 @@ std::vector<SmokeBlock> CollectSmoke(vtkDataObject* input, const std::string& na
         throw Error("smoke block '" + leafName + "'", "it has no array Extinction",
           "Give the extinction coefficient [1/m] at 633 nm, on cells or points, under that name");
       }
-      blocks.push_back({leafName, grid});
+      blocks.push_back({leafName, grid, {}});
     });
   return blocks;
 }

@@ -2,6 +2,8 @@
 // and collections of them.
 #pragma once
 
+#include "GridRefinement.h"
+
 #include <vtkDataSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -20,6 +22,8 @@ struct SmokeBlock
 {
   std::string Name;
   vtkSmartPointer<vtkDataSet> Grid;
+  /// Of its cells, for the scene.
+  GridRefinement Refinement;
 };
 
 /// Surface or emitter cells: polydata that holds polygons only.

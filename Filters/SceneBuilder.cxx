@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace smokevis
 {
@@ -239,7 +240,9 @@ SceneDescription BuildScene(const SceneBlocks& blocks, const SceneOptions& optio
   scene.Sky = options.Sky;
   for (const SmokeBlock& block : blocks.Smoke)
   {
-    scene.Grids.push_back(BuildGrid(block));
+    SmokeGrid grid = BuildGrid(block);
+    scene.Grids.push_back(
+      block.Refinement.None() ? std::move(grid) : Refined(grid, block.Refinement));
   }
   for (const SurfaceBlock& block : blocks.Surfaces)
   {

@@ -18,7 +18,8 @@ struct SceneOptions
   double Sky = 0.0;
 };
 
-/// Describes the scene of the blocks. Grids, surface cells and emitter cells keep their order. With
+/// Describes the scene of the blocks. Grids, surface cells and emitter cells keep their order;
+/// grids are refined as their blocks say. With
 /// one band, three-component luminances and reflectances count with their photometric weights.
 /// Throws Error that names array, block and cell of a value that is out of range. Surfaces without
 /// Reflectance and emitters without it reflect nothing; smoke in hidden cells counts as clear.

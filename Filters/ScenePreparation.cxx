@@ -2,6 +2,7 @@
 #include "ScenePreparation.h"
 
 #include "MemoryGuard.h"
+#include "SmokeLightArrays.h"
 #include "SurfaceRefiner.h"
 
 #include <vtkBoundingBox.h>
@@ -129,7 +130,7 @@ void RequireMemoryForLight(const SceneBlocks& blocks, int bands)
   double cells = 0.0;
   for (const SmokeBlock& block : blocks.Smoke)
   {
-    cells += static_cast<double>(block.Grid->GetNumberOfCells());
+    cells += static_cast<double>(SceneCells(block));
   }
   double patches = 0.0;
   for (const auto* const group : {&blocks.Surfaces, &blocks.Emitters})

@@ -40,8 +40,6 @@ constexpr double DefaultAlbedo = 0.3;
 constexpr double AutomaticPatches = 50.0;
 /// Ratio of sizes beyond which surfaces and smoke are likely in different units.
 constexpr double SuspiciousRatio = 100.0;
-/// Share of the cells that may be coarse before there is a warning, such as those in flames.
-constexpr double TolerableShare = 0.01;
 
 using smokevis::Error;
 using smokevis::SceneBlocks;
@@ -155,6 +153,8 @@ void vtkSmokeLightField::CheckProperties() const
   smokevis::Check(this->Seed >= 0, "Seed", "it is negative", "Give a whole number from 0");
   smokevis::Check(smokevis::IsNotNegative(this->PatchSize), "PatchSize",
     "it is negative or not finite", "Give a length in metres, or 0 for an automatic one");
+  smokevis::Check(this->MaximumRefinedCells >= 0, "MaximumRefinedCells", "it is negative",
+    "Give 0 to refine no smoke");
   smokevis::Check(this->Threads >= 0, "Threads", "it is negative", "Give 0 for all of the machine");
 }
 
@@ -182,15 +182,16 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::WarnOfCoarseCells(const smokevis::LightField& field)
 {
-  if (static_cast<double>(field.CoarseCells) > TolerableShare * static_cast<double>(field.Cells))
+  if (static_cast<double>(field.CoarseCells) >
+      smokevis::TolerableThickShare * static_cast<double>(field.Cells))
   {
     vtkWarningMacro(
       << "Smoke: " << field.CoarseCells << " of " << field.Cells
       << " cells are so thick that light is scattered more than once on a mean way "
       << "through them. What lies in the dark behind several of them may come out "
       << "a third too bright, in white smoke half as bright as it is, and many times too bright "
-      << "where they are thicker than four mean free paths, which no error bar tells: give smoke "
-      << "on a finer grid.");
+      << "where they are thicker than four mean free paths, which no error bar tells: raise "
+      << "MaximumRefinedCells, or give smoke on a finer grid.");
   }
 }
 
@@ -268,6 +269,33 @@ void vtkSmokeLightField::AddProperties(smokevis::Agreement& agreement) const
   agreement.Add("SkipNeedlessWork", this->SkipNeedlessWork);
   agreement.Add("Seed", this->Seed);
   agreement.Add("PatchSize", this->PatchSize);
+  agreement.Add("MaximumRefinedCells", this->MaximumRefinedCells);
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::Refine(Task& task) const
+{
+  std::vector<smokevis::SmokeGrid>& grids = task.Description.Grids;
+  const smokevis::ThickSmoke thick =
+    smokevis::FindThickSmoke(task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
+  bool refined = false;
+  for (std::size_t i = 0; i < grids.size(); ++i)
+  {
+    const smokevis::GridRefinement& refinement = thick.Refinements[i];
+    if (!refinement.None())
+    {
+      grids[i] = smokevis::Refined(grids[i], refinement);
+      task.Blocks.Smoke[i].Refinement = refinement;
+      refined = true;
+    }
+  }
+  const std::string cells = std::to_string(thick.Cells);
+  task.Report.push_back(
+    {"thick smoke cells refined", refined ? static_cast<double>(thick.Thick) : 0.0,
+      thick.Thick == 0 ? "no more than a hundredth of a grid's smoke is so thick"
+      : refined        ? "light varies inside them; the smoke is solved in " + cells + " cells"
+                       : std::to_string(thick.Thick) + " thick cells would make " + cells +
+                    " cells, more than MaximumRefinedCells"});
 }
 
 //------------------------------------------------------------------------------
@@ -299,9 +327,9 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
       "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
   }
   task.Options = this->Options(smoke, report);
-  smokevis::RequireMemoryForLight(blocks, this->Bands);
-
   task.Description = smokevis::BuildScene(blocks, task.Options);
+  this->Refine(task);
+  smokevis::RequireMemoryForLight(blocks, this->Bands);
   task.Description.LeapsClearAir = this->SkipNeedlessWork;
   if (this->Bands == RGB && this->SkipNeedlessWork && smokevis::BandsAreEqual(task.Description))
   {
@@ -396,5 +424,6 @@ void vtkSmokeLightField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SkipNeedlessWork: " << this->SkipNeedlessWork << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "PatchSize: " << this->PatchSize << "\n";
+  os << indent << "MaximumRefinedCells: " << this->MaximumRefinedCells << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
 }

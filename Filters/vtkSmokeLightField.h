@@ -22,7 +22,10 @@
  * - smoke: `Fluence` and its standard error `FluenceError` [lx]; `DirectFluence`, its part that
  * comes straight from emitters; `MultipleFluence`, the rest in 16 independent batches a band. Of a
  * cell that walls cut, these two are those of its first part, and the field data of the smoke's
- * block hold the others' as `PartDirectFluence` and `PartMultipleFluence`;
+ * block hold the others' as `PartDirectFluence` and `PartMultipleFluence`. Of a
+ * grid that was refined (MaximumRefinedCells) all are means over its cells, and the field data of
+ * its block hold the number of parts of each interval between nodes, `Refinement`, and the light of
+ * the finer cells, `RefinedDirectFluence` and `RefinedMultipleFluence`;
  * - surfaces and emitters: `Illuminance` of the front and its standard error `IlluminanceError`
  * [lx]; `IlluminanceBack`; `DirectIlluminance`, front and back of each band; `MultipleIlluminance`,
  * 16 batches of the front, then the back, of each band. Surfaces are cut into patches; `ParentCell`
@@ -169,6 +172,19 @@ public:
 
   ///@{
   /**
+   * Most cells that smoke is refined to, from 0. In white smoke light falls off to walls and away
+   * from lights within a mean free path or two. Grids of which more than a hundredth of the smoke
+   * has cells thicker than three quarters of one (of soot, which scatters less, than 1.9 at most),
+   * but not than ten (25), are solved and looked at in finer cells: of half of one where that takes
+   * an eighth of this number at most, of three quarters or a whole one otherwise. The output keeps
+   * the cells of the input. 0: none are refined. Default: 1000000.
+   */
+  vtkSetMacro(MaximumRefinedCells, int);
+  vtkGetMacro(MaximumRefinedCells, int);
+  ///@}
+
+  ///@{
+  /**
    * Most worker threads, from 0; 0: as many as the machine has. The result does not depend on it.
    * Default: 0.
    */
@@ -209,6 +225,8 @@ private:
   void AddProperties(smokevis::Agreement& agreement) const;
   /// Collects the scene.
   void Prepare(vtkInformationVector** inputs, Task& task);
+  /// Refines the grids of thick smoke.
+  void Refine(Task& task) const;
   /// Solves the light field of the scene and stores it in the scene's blocks.
   void SolveBlocks(Task& task);
 
@@ -222,6 +240,7 @@ private:
   bool SkipNeedlessWork = true;
   int Seed = 1;
   double PatchSize = 0.0;
+  int MaximumRefinedCells = 1000000;
   int Threads = 0;
 
   struct Internals;

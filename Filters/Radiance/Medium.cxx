@@ -25,6 +25,25 @@ constexpr double TraceShare = 1e-6;
 
 } // namespace
 
+double FinenessOf(const SmokeGrid& grid)
+{
+  if (grid.Fineness > 0.0)
+  {
+    return grid.Fineness;
+  }
+  double volume = 1.0;
+  for (const std::vector<double>& nodes : grid.Nodes)
+  {
+    double smallest = Infinity;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+    {
+      smallest = std::min(smallest, nodes[i] - nodes[i - 1]);
+    }
+    volume *= smallest;
+  }
+  return volume;
+}
+
 int Medium::Grid::Index(int axis, double coordinate) const
 {
   const std::vector<double>& nodes = this->Nodes[axis];
@@ -71,7 +90,7 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
   {
     Grid grid;
     grid.FirstCell = static_cast<std::int64_t>(this->Extinction_.size());
-    grid.Fineness = 1.0;
+    grid.Fineness = FinenessOf(source);
     for (int axis = 0; axis < 3; ++axis)
     {
       const std::vector<double>& nodes = source.Nodes[axis];
@@ -85,7 +104,6 @@ Medium::Medium(std::vector<SmokeGrid> grids, bool leaps)
         smallest = std::min(smallest, nodes[i] - nodes[i - 1]);
         largest = std::max(largest, nodes[i] - nodes[i - 1]);
       }
-      grid.Fineness *= smallest;
       this->LargestEdge_ = std::max(this->LargestEdge_, largest);
       if (largest <= smallest * 1.001)
       {

@@ -29,9 +29,15 @@ struct SmokeGrid
   std::vector<float> Extinction;
   /// Luminance that the cell's absorption would emit in equilibrium [cd/m2]; empty: none.
   std::vector<float> EmittedLuminance;
+  /// Volume of the cells by which the grid counts where it overlaps others; 0: FinenessOf(*this)
+  /// [m3].
+  double Fineness = 0.0;
 
   bool operator==(const SmokeGrid&) const = default;
 };
+
+/// Volume of a cell with the shortest edges that a grid has [m3], or what it says itself.
+double FinenessOf(const SmokeGrid& grid);
 
 /// A piece of a ray inside one cell.
 struct Segment

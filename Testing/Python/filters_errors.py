@@ -124,16 +124,16 @@ def check_views():
     assert messages.count("Warning", "vtkVisibilityImage") == 1, messages.text
     assert scenes.field(data, "VisibleFraction") == 0 and scenes.field(data, "Contrast") == 0
 
-    # Smoke that cells are too coarse for is no error but a warning, given once; what scatters less is
-    # not too thick.
-    for albedo, warnings in ((0.9, 1), (0.1, 0)):
+    # Smoke that cells are too coarse for, which may not be refined, is no error but a warning, given
+    # once; what scatters less is not too thick.
+    for albedo, refined, warnings in ((0.9, 0, 1), (0.9, 1000000, 0), (0.1, 0, 0)):
         thick = simple.SmokeLightField(Smoke=producer(image(CELLS, SIZE, extinction=20.0), "ThickSmoke"),
                                        Emitters=[simple.Luminaire(Center=[1, 0.5, 1])], Albedo=albedo,
-                                       Tolerance=0.1)
+                                       Tolerance=0.1, MaximumRefinedCells=refined)
         with scenes.Messages() as messages:
             fetch(thick)
         assert messages.count("Warning", "vtkSmokeLightField") == warnings, messages.text
-        assert ("finer grid" in messages.text) == (warnings == 1), messages.text
+        assert ("MaximumRefinedCells" in messages.text) == (warnings == 1), messages.text
 
     # Smoke inside the obstruction is none: its cells are solid.
     solid = image((20, 10, 10), SIZE)

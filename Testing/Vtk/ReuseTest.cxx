@@ -132,6 +132,30 @@ TEST_F(ReuseTest, AStepThatChangesNothingKeepsAll)
   EXPECT_EQ(chain.MapEntry("views set up"), 0.0);
 }
 
+// What views read of refined smoke is kept with the rest, and dropped when smoke is thin again.
+TEST_F(ReuseTest, RefinedSmokeIsKeptAsWell)
+{
+  const auto isRefined = [](Chain& chain)
+  {
+    vtkDataObject* const block = chain.Field->GetOutput()->GetPartitionAsDataObject(0, 0);
+    return block->GetFieldData()->HasArray("RefinedMultipleFluence") != 0;
+  };
+  FillExtinction(this->Smoke, 2.0);
+  Chain chain(this->Smoke, this->Wall, this->Sign, this->Lamp);
+  const std::vector<double> first = chain.Values();
+  EXPECT_EQ(chain.FieldEntry("thick smoke cells refined"), 16.0);
+  EXPECT_TRUE(isRefined(chain));
+  FillExtinction(this->Smoke, 2.0);
+  EXPECT_EQ(chain.Values(), first);
+  EXPECT_EQ(chain.FieldEntry("light fields solved"), 0.0);
+  EXPECT_EQ(chain.MapEntry("views set up"), 0.0);
+  EXPECT_TRUE(isRefined(chain));
+  FillExtinction(this->Smoke, 0.4);
+  EXPECT_EQ(chain.Values(), this->FreshValues());
+  EXPECT_EQ(chain.FieldEntry("thick smoke cells refined"), 0.0);
+  EXPECT_FALSE(isRefined(chain));
+}
+
 TEST_F(ReuseTest, SmokeThatChangesKeepsTheSearchStructures)
 {
   Chain chain(this->Smoke, this->Wall, this->Sign, this->Lamp);

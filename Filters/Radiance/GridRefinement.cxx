@@ -1,0 +1,210 @@
+#include "GridRefinement.h"
+
+#include "GridChecks.h"
+#include "Places.h"
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis
+{
+
+namespace
+{
+
+/// Optical depth of scattering along the longest edge of a cell above which it is too thick, and
+/// that above which it stays as it is: next to opaque.
+constexpr double ThickDepth = 0.75;
+constexpr double OpaqueDepth = 10.0;
+/// Those that are aimed at, best first, and the share of the cells that refined grids may have
+/// which that may take.
+struct Aim
+{
+  double Depth, Share;
+};
+constexpr std::array<Aim, 3> Aims = {{{0.5, 0.125}, {0.75, 1.0}, {1.0, 1.0}}};
+/// Soot of a lower albedo counts as if it had this one.
+constexpr double LeastAlbedo = 0.4;
+
+std::array<int, 3> SizeOf(const SmokeGrid& grid)
+{
+  std::array<int, 3> size;
+  std::transform(grid.Nodes.begin(), grid.Nodes.end(), size.begin(),
+    [](const std::vector<double>& nodes) { return static_cast<int>(nodes.size()) - 1; });
+  return size;
+}
+
+double Edge(const SmokeGrid& grid, int axis, int interval)
+{
+  return grid.Nodes[axis][interval + 1] - grid.Nodes[axis][interval];
+}
+
+/// Smoke of a grid that is thicker than a depth.
+struct ThickCellsOfGrid
+{
+  GridRefinement Refinement;
+  std::size_t Thick = 0, Smoky = 0;
+
+  bool Matter() const
+  {
+    return static_cast<double>(this->Thick) >
+           TolerableThickShare * static_cast<double>(this->Smoky);
+  }
+};
+
+/// @param scattering coefficient over the extinction coefficient
+/// @param aim optical depth of scattering that cells are to have at most
+ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double aim)
+{
+  CheckGrid(grid);
+  ThickCellsOfGrid found;
+  const std::array<int, 3> size = SizeOf(grid);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    found.Refinement.Parts[axis].assign(size[axis], 1);
+  }
+  ForEachPlace(size,
+    [&](const std::array<int, 3>& place)
+    {
+      const float extinction = grid.Extinction[PlaceNumber(size, place)];
+      if (!(extinction > 0.0F))
+      {
+        return;
+      }
+      std::array<double, 3> depths;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        depths[axis] = scattering * extinction * Edge(grid, axis, place[axis]);
+      }
+      ++found.Smoky;
+      const double deepest = *std::max_element(depths.begin(), depths.end());
+      if (deepest <= ThickDepth || deepest > OpaqueDepth)
+      {
+        return;
+      }
+      ++found.Thick;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        int& most = found.Refinement.Parts[axis][place[axis]];
+        most = std::max(most, static_cast<int>(std::ceil(depths[axis] / aim)));
+      }
+    });
+  return found;
+}
+
+/// For each interval of the finer grid along an axis, that of the grid.
+std::vector<int> ParentIntervals(const std::vector<int>& parts)
+{
+  std::vector<int> parents;
+  for (std::size_t interval = 0; interval < parts.size(); ++interval)
+  {
+    parents.insert(parents.end(), parts[interval], static_cast<int>(interval));
+  }
+  return parents;
+}
+
+} // namespace
+
+std::size_t GridRefinement::Cells() const
+{
+  std::size_t cells = 1;
+  for (const std::vector<int>& parts : this->Parts)
+  {
+    std::size_t along = 0;
+    for (const int part : parts)
+    {
+      along += static_cast<std::size_t>(part);
+    }
+    cells *= along;
+  }
+  return cells;
+}
+
+std::vector<std::int64_t> GridRefinement::Parents() const
+{
+  std::array<std::vector<int>, 3> intervals;
+  std::array<int, 3> fine;
+  std::array<int, 3> coarse;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    intervals[axis] = ParentIntervals(this->Parts[axis]);
+    fine[axis] = static_cast<int>(intervals[axis].size());
+    coarse[axis] = static_cast<int>(this->Parts[axis].size());
+  }
+  std::vector<std::int64_t> parents;
+  parents.reserve(this->Cells());
+  ForEachPlace(fine,
+    [&](const std::array<int, 3>& place)
+    {
+      parents.push_back(PlaceNumber(
+        coarse, {intervals[0][place[0]], intervals[1][place[1]], intervals[2][place[2]]}));
+    });
+  return parents;
+}
+
+SmokeGrid Refined(const SmokeGrid& grid, const GridRefinement& refinement)
+{
+  SmokeGrid fine;
+  fine.Name = grid.Name;
+  fine.Fineness = FinenessOf(grid);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double>& nodes = grid.Nodes[axis];
+    for (std::size_t interval = 0; interval + 1 < nodes.size(); ++interval)
+    {
+      const int parts = refinement.Parts[axis][interval];
+      for (int part = 0; part < parts; ++part)
+      {
+        fine.Nodes[axis].push_back(
+          std::lerp(nodes[interval], nodes[interval + 1], static_cast<double>(part) / parts));
+      }
+    }
+    fine.Nodes[axis].push_back(nodes.back());
+  }
+  const std::vector<std::int64_t> parents = refinement.Parents();
+  const auto take = [&parents](const std::vector<float>& values)
+  {
+    std::vector<float> taken(values.empty() ? 0 : parents.size());
+    std::transform(parents.begin(), parents.begin() + static_cast<std::ptrdiff_t>(taken.size()),
+      taken.begin(), [&values](std::int64_t parent) { return values[parent]; });
+    return taken;
+  };
+  fine.Extinction = take(grid.Extinction);
+  fine.EmittedLuminance = take(grid.EmittedLuminance);
+  return fine;
+}
+
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
+{
+  ThickSmoke none;
+  none.Refinements.resize(scene.Grids.size());
+  if (scene.Albedo == 0.0)
+  {
+    return none;
+  }
+  const double scattering =
+    std::max(LeastAlbedo, scene.Albedo) *
+    *std::max_element(scene.ExtinctionScale.begin(), scene.ExtinctionScale.begin() + scene.Bands);
+  for (const Aim& aim : Aims)
+  {
+    ThickSmoke thick;
+    for (const SmokeGrid& grid : scene.Grids)
+    {
+      ThickCellsOfGrid found = FindThickCells(grid, scattering, aim.Depth);
+      thick.Thick += found.Matter() ? found.Thick : 0;
+      thick.Cells += found.Matter() ? found.Refinement.Cells() : grid.Extinction.size();
+      thick.Refinements.push_back(found.Matter() ? std::move(found.Refinement) : GridRefinement());
+    }
+    none.Thick = thick.Thick;
+    none.Cells = thick.Cells;
+    if (thick.Thick > 0 &&
+        static_cast<double>(thick.Cells) <= aim.Share * static_cast<double>(most))
+    {
+      return thick;
+    }
+  }
+  return none;
+}
+
+} // namespace smokevis

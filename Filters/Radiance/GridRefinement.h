@@ -1,0 +1,59 @@
+// Smoke grids whose cells are too thick for light to vary little inside them, on finer nodes.
+#pragma once
+
+#include "Medium.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smokevis
+{
+
+struct SceneDescription;
+
+/// Into how many cells each cell of a grid is cut.
+struct GridRefinement
+{
+  /// Along each axis, a number of even parts for each interval between nodes; none: the grid stays
+  /// as it is.
+  std::array<std::vector<int>, 3> Parts;
+
+  bool None() const { return this->Parts[0].empty(); }
+  /// Cells of the finer grid.
+  std::size_t Cells() const;
+  /// The cell of the grid that each cell of the finer one lies in.
+  std::vector<std::int64_t> Parents() const;
+};
+
+/// Share of a grid's smoke that may be too thick before anything is done about it, such as the
+/// cells of flames.
+inline constexpr double TolerableThickShare = 0.01;
+
+/// The same smoke in smaller cells. Where it overlaps others, the grid counts as before.
+SmokeGrid Refined(const SmokeGrid& grid, const GridRefinement& refinement);
+
+/// What is found to be thick in a scene, and what becomes of it.
+struct ThickSmoke
+{
+  /// Of each grid; all none where nothing is refined.
+  std::vector<GridRefinement> Refinements;
+  /// Cells that are too thick, in grids where more than a tolerable share is.
+  std::size_t Thick = 0;
+  /// Cells of all grids when they are refined, even where that is not done.
+  std::size_t Cells = 0;
+};
+
+/// Finds how to refine grids so that light changes little inside a cell. Light that is scattered
+/// many times falls off to walls and away from lights within a mean free path or two; in cells of
+/// two up to half of it is lost, in cells of four nearly twice as much comes through
+/// (`ThickSmoke.DarkBarsInADuct`). Where cells scatter more than three quarters of a depth, grids
+/// are refined to half of one where that takes an eighth of the cells that they may have at most,
+/// and to three quarters or a whole one otherwise. Soot counts as if it scattered two fifths: what little
+/// it sends on is the veil. Cells that scatter more than ten are left: they are next to opaque.
+/// Throws Error for grids that are not usable.
+/// @param most cells that all grids may have when some are refined
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most);
+
+} // namespace smokevis

@@ -1,0 +1,165 @@
+#include "GridRefinement.h"
+
+#include "Errors.h"
+#include "Scene.h"
+#include "SceneLibrary.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace smokevis;
+
+constexpr std::size_t Plenty = 1000000;
+
+/// Eight cells of a metre in a row.
+SceneDescription Row(double extinction, double albedo)
+{
+  SceneDescription scene;
+  scene.Albedo = albedo;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {8, 1, 1}, {8, 1, 1}, extinction)};
+  return scene;
+}
+
+std::vector<int> Ones(std::size_t count)
+{
+  return std::vector<int>(count, 1);
+}
+
+TEST(GridRefinement, KeepsWhereSmokeIs)
+{
+  SmokeGrid grid;
+  grid.Name = "two layers";
+  grid.Nodes = {{{0.0, 1.0, 4.0}, {-1.0, 0.0}, {2.0, 3.0, 3.5}}};
+  grid.Extinction = {1.0F, 2.0F, 3.0F, 4.0F};
+  grid.EmittedLuminance = {0.0F, 0.0F, 7.0F, 0.0F};
+  GridRefinement refinement;
+  EXPECT_TRUE(refinement.None());
+  refinement.Parts = {{{1, 3}, {1}, {2, 1}}};
+  EXPECT_FALSE(refinement.None());
+  EXPECT_EQ(refinement.Cells(), 12U);
+  const std::vector<std::int64_t> parents = {0, 1, 1, 1, 0, 1, 1, 1, 2, 3, 3, 3};
+  EXPECT_EQ(refinement.Parents(), parents);
+
+  const SmokeGrid fine = Refined(grid, refinement);
+  EXPECT_EQ(fine.Name, grid.Name);
+  EXPECT_EQ(fine.Nodes[0], (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+  EXPECT_EQ(fine.Nodes[1], grid.Nodes[1]);
+  EXPECT_EQ(fine.Nodes[2], (std::vector<double>{2.0, 2.5, 3.0, 3.5}));
+  for (std::size_t cell = 0; cell < parents.size(); ++cell)
+  {
+    EXPECT_EQ(fine.Extinction[cell], grid.Extinction[parents[cell]]);
+    EXPECT_EQ(fine.EmittedLuminance[cell], grid.EmittedLuminance[parents[cell]]);
+  }
+}
+
+TEST(GridRefinement, LeavesWhatIsThin)
+{
+  // Three quarters of a mean free path of scattered light; of soot, two fifths of all counts as such.
+  for (const auto& [extinction, albedo] :
+    {std::pair(0.75, 1.0), {1.0, 0.75}, {1.875, 0.3}, {50.0, 0.0}})
+  {
+    const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
+    EXPECT_EQ(thick.Thick, 0U);
+    EXPECT_TRUE(thick.Refinements.front().None());
+  }
+}
+
+TEST(GridRefinement, CutsWhatIsThick)
+{
+  for (const auto& [extinction, albedo, parts] :
+    {std::tuple(0.76, 1.0, 2), {4.0, 1.0, 8}, {4.0, 0.5, 4}, {4.0, 0.1, 4}, {9.9, 1.0, 20}})
+  {
+    const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
+    EXPECT_EQ(thick.Thick, 8U);
+    EXPECT_EQ(thick.Cells, 8U * parts * parts * parts);
+    EXPECT_EQ(thick.Refinements.front().Parts[0], std::vector<int>(8, parts));
+  }
+  // Blue light is dimmed most.
+  SceneDescription colours = Row(0.5, 1.0);
+  colours.Bands = 3;
+  colours.ExtinctionScale = {1.0, 1.5, 2.0};
+  EXPECT_EQ(FindThickSmoke(colours, Plenty).Refinements.front().Parts[1], std::vector<int>{2});
+  // A single band is the first one.
+  colours.Bands = 1;
+  EXPECT_EQ(FindThickSmoke(colours, Plenty).Thick, 0U);
+}
+
+TEST(GridRefinement, LeavesWhatIsOpaque)
+{
+  SceneDescription scene = Row(10.1, 1.0);
+  EXPECT_EQ(FindThickSmoke(scene, Plenty).Thick, 0U);
+  scene.Grids.front().Extinction[5] = 1.0F;
+  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+  EXPECT_EQ(thick.Thick, 1U);
+  EXPECT_EQ(thick.Refinements.front().Parts[0], (std::vector<int>{1, 1, 1, 1, 1, 2, 1, 1}));
+  EXPECT_EQ(thick.Refinements.front().Parts[1], std::vector<int>{2});
+}
+
+// Flames of a few cells are not worth slabs of finer cells through all the hall.
+TEST(GridRefinement, LeavesTheFewCellsOfAFlame)
+{
+  SceneDescription scene;
+  scene.Albedo = 0.5;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {10, 10, 2}, {10, 10, 2}, 0.1)};
+  scene.Grids.push_back(scenes::UniformSmoke({20, 0, 0}, {30, 10, 2}, {10, 10, 2}, 0.1));
+  scene.Grids[0].Extinction[55] = 5.0F;
+  scene.Grids[0].Extinction[155] = 5.0F;
+  EXPECT_EQ(FindThickSmoke(scene, Plenty).Thick, 0U);
+  // Of half as much smoke, the same are too many; and only the grid that they lie in is refined.
+  std::fill(scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 0.0F);
+  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+  EXPECT_EQ(thick.Thick, 2U);
+  EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{5, 5}));
+  std::vector<int> column = Ones(10);
+  column[5] = 5;
+  EXPECT_EQ(thick.Refinements[0].Parts[0], column);
+  EXPECT_TRUE(thick.Refinements[1].None());
+  EXPECT_EQ(thick.Cells, 14U * 14U * 10U + 200U);
+}
+
+// The finest of half a mean free path, three quarters, and a whole one that there is room for.
+TEST(GridRefinement, TakesNoMoreCellsThanItMay)
+{
+  const SceneDescription scene = Row(3.0, 1.0);
+  const auto parts = [&scene](std::size_t most)
+  {
+    const ThickSmoke thick = FindThickSmoke(scene, most);
+    EXPECT_EQ(thick.Thick, 8U);
+    return thick.Refinements.front().None() ? 1 : thick.Refinements.front().Parts[1].front();
+  };
+  EXPECT_EQ(parts(8 * 8 * 216), 6);
+  EXPECT_EQ(parts(8 * 8 * 216 - 1), 4);
+  EXPECT_EQ(parts(8 * 64), 4);
+  EXPECT_EQ(parts(8 * 64 - 1), 3);
+  EXPECT_EQ(parts(8 * 27), 3);
+  EXPECT_EQ(parts(8 * 27 - 1), 1);
+  EXPECT_EQ(parts(0), 1);
+  EXPECT_EQ(FindThickSmoke(scene, 0).Cells, 8U * 27U);
+}
+
+// Of two grids the finer one counts where they overlap, and goes on to when the other one is
+// refined to smaller cells than it has.
+TEST(GridRefinement, CountsAsBeforeWhereGridsOverlap)
+{
+  const SmokeGrid coarse = scenes::UniformSmoke(Vec3(0.0), Vec3(4.0), {2, 2, 2}, 4.0);
+  const SmokeGrid fine = scenes::UniformSmoke(Vec3(0.0), {4, 4, 1}, {4, 4, 1}, 0.1);
+  GridRefinement refinement;
+  refinement.Parts = {{{4, 4}, {4, 4}, {4, 4}}};
+  for (const SmokeGrid& grid : {coarse, Refined(coarse, refinement)})
+  {
+    const Medium smoke({grid, fine});
+    EXPECT_EQ(smoke.Extinction(smoke.Locate({1.0, 1.0, 0.5})), 0.1F);
+    EXPECT_EQ(smoke.Extinction(smoke.Locate({1.0, 1.0, 1.5})), 4.0F);
+  }
+}
+
+TEST(GridRefinement, RefusesBrokenGrids)
+{
+  SceneDescription scene = Row(3.0, 1.0);
+  scene.Grids.front().Nodes[0][4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(FindThickSmoke(scene, Plenty), Error);
+}
+
+} // namespace
