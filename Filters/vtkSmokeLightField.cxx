@@ -275,19 +275,13 @@ void vtkSmokeLightField::AddProperties(smokevis::Agreement& agreement) const
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::Refine(Task& task) const
 {
-  std::vector<smokevis::SmokeGrid>& grids = task.Description.Grids;
-  const smokevis::ThickSmoke thick =
-    smokevis::FindThickSmoke(task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
+  const smokevis::ThickSmoke thick = smokevis::RefineThickSmoke(
+    task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
   bool refined = false;
-  for (std::size_t i = 0; i < grids.size(); ++i)
+  for (std::size_t i = 0; i < thick.Refinements.size(); ++i)
   {
-    const smokevis::GridRefinement& refinement = thick.Refinements[i];
-    if (!refinement.None())
-    {
-      grids[i] = smokevis::Refined(grids[i], refinement);
-      task.Blocks.Smoke[i].Refinement = refinement;
-      refined = true;
-    }
+    task.Blocks.Smoke[i].Refinement = thick.Refinements[i];
+    refined = refined || !thick.Refinements[i].None();
   }
   const std::string cells = std::to_string(thick.Cells);
   task.Report.push_back(

@@ -175,36 +175,43 @@ SmokeGrid Refined(const SmokeGrid& grid, const GridRefinement& refinement)
   return fine;
 }
 
-ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
+ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most)
 {
-  ThickSmoke none;
-  none.Refinements.resize(scene.Grids.size());
+  ThickSmoke result;
+  result.Refinements.resize(scene.Grids.size());
   if (scene.Albedo == 0.0)
   {
-    return none;
+    return result;
   }
   const double scattering =
     std::max(LeastAlbedo, scene.Albedo) *
     *std::max_element(scene.ExtinctionScale.begin(), scene.ExtinctionScale.begin() + scene.Bands);
   for (const Aim& aim : Aims)
   {
-    ThickSmoke thick;
+    std::vector<GridRefinement> refinements;
+    result.Thick = 0;
+    result.Cells = 0;
     for (const SmokeGrid& grid : scene.Grids)
     {
       ThickCellsOfGrid found = FindThickCells(grid, scattering, aim.Depth);
-      thick.Thick += found.Matter() ? found.Thick : 0;
-      thick.Cells += found.Matter() ? found.Refinement.Cells() : grid.Extinction.size();
-      thick.Refinements.push_back(found.Matter() ? std::move(found.Refinement) : GridRefinement());
+      result.Thick += found.Matter() ? found.Thick : 0;
+      result.Cells += found.Matter() ? found.Refinement.Cells() : grid.Extinction.size();
+      refinements.push_back(found.Matter() ? std::move(found.Refinement) : GridRefinement());
     }
-    none.Thick = thick.Thick;
-    none.Cells = thick.Cells;
-    if (thick.Thick > 0 &&
-        static_cast<double>(thick.Cells) <= aim.Share * static_cast<double>(most))
+    if (static_cast<double>(result.Cells) <= aim.Share * static_cast<double>(most))
     {
-      return thick;
+      result.Refinements = std::move(refinements);
+      break;
     }
   }
-  return none;
+  for (std::size_t i = 0; i < scene.Grids.size(); ++i)
+  {
+    if (!result.Refinements[i].None())
+    {
+      scene.Grids[i] = Refined(scene.Grids[i], result.Refinements[i]);
+    }
+  }
+  return result;
 }
 
 } // namespace smokevis

@@ -45,15 +45,15 @@ struct ThickSmoke
   std::size_t Cells = 0;
 };
 
-/// Finds how to refine grids so that light changes little inside a cell. Light that is scattered
+/// Refines the grids of a scene so that light changes little inside a cell. Light that is scattered
 /// many times falls off to walls and away from lights within a mean free path or two; in cells of
 /// two up to half of it is lost, in cells of four nearly twice as much comes through
-/// (`ThickSmoke.DarkBarsInADuct`). Where cells scatter more than three quarters of a depth, grids
-/// are refined to half of one where that takes an eighth of the cells that they may have at most,
-/// and to three quarters or a whole one otherwise. Soot counts as if it scattered two fifths: what little
-/// it sends on is the veil. Cells that scatter more than ten are left: they are next to opaque.
-/// Throws Error for grids that are not usable.
+/// (`ThickSmoke.DarkBarsInADuct`). Where cells scatter more than three quarters of a depth, they
+/// become cells of half of one where that takes an eighth of the cells that they may have at most,
+/// and of three quarters or a whole one otherwise. Soot counts as if it scattered two fifths: what
+/// little it sends on is the veil. Cells that scatter more than ten are left: they are next to
+/// opaque. Throws Error for grids that are not usable.
 /// @param most cells that all grids may have when some are refined
-ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most);
+ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most);
 
 } // namespace smokevis

@@ -95,6 +95,8 @@ void RunGrowth(const Settings& settings);
 void RunThreads(const Settings& settings);
 /// skips: what each thing that is left out saves, and what it changes.
 void RunSkips(const Settings& settings);
+/// thick: smoke in cells of more than a mean free path, as it comes and refined.
+void RunThick(const Settings& settings);
 /// steps: nanoseconds a step of a ray from cell to cell.
 void RunSteps(const Settings& settings);
 

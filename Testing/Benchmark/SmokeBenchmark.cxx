@@ -43,6 +43,7 @@ const std::map<std::string, Case> Cases = {
   {"threads", {RunThreads, {}}},
   {"steps", {RunSteps, {}}},
   {"skips", {RunSkips, {}}},
+  {"thick", {RunThick, {.Tolerances = {0.1, 0.03}, .ReferenceTolerance = 0.01}}},
 };
 
 std::vector<std::string> SplitList(const std::string& list)
@@ -105,7 +106,7 @@ void PrintUsage()
 {
   std::fprintf(stderr,
     "SmokeBenchmark --case A,B,... [options]\n"
-    "  cases: tunnel hall12 hall110 hall10m office growth threads steps skips\n"
+    "  cases: tunnel hall12 hall110 hall10m office growth threads steps skips thick\n"
     "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver (tunnel, maps)\n"
     "  --samples 1,4,16,64               samples a pixel, or a point of a sign, of the reference\n"
     "                                    integrator (tunnel, maps); empty: without it\n"

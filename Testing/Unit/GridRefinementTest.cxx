@@ -22,6 +22,11 @@ SceneDescription Row(double extinction, double albedo)
   return scene;
 }
 
+ThickSmoke Refine(SceneDescription scene, std::size_t most)
+{
+  return RefineThickSmoke(scene, most);
+}
+
 std::vector<int> Ones(std::size_t count)
 {
   return std::vector<int>(count, 1);
@@ -56,11 +61,12 @@ TEST(GridRefinement, KeepsWhereSmokeIs)
 
 TEST(GridRefinement, LeavesWhatIsThin)
 {
-  // Three quarters of a mean free path of scattered light; of soot, two fifths of all counts as such.
+  // Three quarters of a mean free path of scattered light; of soot, two fifths of all counts as
+  // such.
   for (const auto& [extinction, albedo] :
     {std::pair(0.75, 1.0), {1.0, 0.75}, {1.875, 0.3}, {50.0, 0.0}})
   {
-    const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
+    const ThickSmoke thick = Refine(Row(extinction, albedo), Plenty);
     EXPECT_EQ(thick.Thick, 0U);
     EXPECT_TRUE(thick.Refinements.front().None());
   }
@@ -71,27 +77,31 @@ TEST(GridRefinement, CutsWhatIsThick)
   for (const auto& [extinction, albedo, parts] :
     {std::tuple(0.76, 1.0, 2), {4.0, 1.0, 8}, {4.0, 0.5, 4}, {4.0, 0.1, 4}, {9.9, 1.0, 20}})
   {
-    const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
+    const ThickSmoke thick = Refine(Row(extinction, albedo), Plenty);
     EXPECT_EQ(thick.Thick, 8U);
     EXPECT_EQ(thick.Cells, 8U * parts * parts * parts);
     EXPECT_EQ(thick.Refinements.front().Parts[0], std::vector<int>(8, parts));
   }
+  // The scene then has the finer grid.
+  SceneDescription scene = Row(0.76, 1.0);
+  RefineThickSmoke(scene, Plenty);
+  EXPECT_EQ(scene.Grids.front().Extinction, std::vector<float>(64, 0.76F));
   // Blue light is dimmed most.
   SceneDescription colours = Row(0.5, 1.0);
   colours.Bands = 3;
   colours.ExtinctionScale = {1.0, 1.5, 2.0};
-  EXPECT_EQ(FindThickSmoke(colours, Plenty).Refinements.front().Parts[1], std::vector<int>{2});
+  EXPECT_EQ(Refine(colours, Plenty).Refinements.front().Parts[1], std::vector<int>{2});
   // A single band is the first one.
   colours.Bands = 1;
-  EXPECT_EQ(FindThickSmoke(colours, Plenty).Thick, 0U);
+  EXPECT_EQ(Refine(colours, Plenty).Thick, 0U);
 }
 
 TEST(GridRefinement, LeavesWhatIsOpaque)
 {
   SceneDescription scene = Row(10.1, 1.0);
-  EXPECT_EQ(FindThickSmoke(scene, Plenty).Thick, 0U);
+  EXPECT_EQ(Refine(scene, Plenty).Thick, 0U);
   scene.Grids.front().Extinction[5] = 1.0F;
-  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+  const ThickSmoke thick = Refine(scene, Plenty);
   EXPECT_EQ(thick.Thick, 1U);
   EXPECT_EQ(thick.Refinements.front().Parts[0], (std::vector<int>{1, 1, 1, 1, 1, 2, 1, 1}));
   EXPECT_EQ(thick.Refinements.front().Parts[1], std::vector<int>{2});
@@ -106,10 +116,10 @@ TEST(GridRefinement, LeavesTheFewCellsOfAFlame)
   scene.Grids.push_back(scenes::UniformSmoke({20, 0, 0}, {30, 10, 2}, {10, 10, 2}, 0.1));
   scene.Grids[0].Extinction[55] = 5.0F;
   scene.Grids[0].Extinction[155] = 5.0F;
-  EXPECT_EQ(FindThickSmoke(scene, Plenty).Thick, 0U);
+  EXPECT_EQ(Refine(scene, Plenty).Thick, 0U);
   // Of half as much smoke, the same are too many; and only the grid that they lie in is refined.
   std::fill(scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 0.0F);
-  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+  const ThickSmoke thick = Refine(scene, Plenty);
   EXPECT_EQ(thick.Thick, 2U);
   EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{5, 5}));
   std::vector<int> column = Ones(10);
@@ -125,7 +135,7 @@ TEST(GridRefinement, TakesNoMoreCellsThanItMay)
   const SceneDescription scene = Row(3.0, 1.0);
   const auto parts = [&scene](std::size_t most)
   {
-    const ThickSmoke thick = FindThickSmoke(scene, most);
+    const ThickSmoke thick = Refine(scene, most);
     EXPECT_EQ(thick.Thick, 8U);
     return thick.Refinements.front().None() ? 1 : thick.Refinements.front().Parts[1].front();
   };
@@ -136,7 +146,7 @@ TEST(GridRefinement, TakesNoMoreCellsThanItMay)
   EXPECT_EQ(parts(8 * 27), 3);
   EXPECT_EQ(parts(8 * 27 - 1), 1);
   EXPECT_EQ(parts(0), 1);
-  EXPECT_EQ(FindThickSmoke(scene, 0).Cells, 8U * 27U);
+  EXPECT_EQ(Refine(scene, 0).Cells, 8U * 27U);
 }
 
 // Of two grids the finer one counts where they overlap, and goes on to when the other one is
@@ -159,7 +169,7 @@ TEST(GridRefinement, RefusesBrokenGrids)
 {
   SceneDescription scene = Row(3.0, 1.0);
   scene.Grids.front().Nodes[0][4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(FindThickSmoke(scene, Plenty), Error);
+  EXPECT_THROW(Refine(scene, Plenty), Error);
 }
 
 } // namespace

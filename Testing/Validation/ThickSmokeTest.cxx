@@ -19,19 +19,6 @@ using namespace smokevis;
 /// As many cells as the filter refines smoke to, if it is not told otherwise.
 constexpr std::size_t Most = 1000000;
 
-void Refine(SceneDescription& scene)
-{
-  const ThickSmoke thick = FindThickSmoke(scene, Most);
-  ASSERT_GT(thick.Thick, 0U);
-  for (std::size_t i = 0; i < scene.Grids.size(); ++i)
-  {
-    if (!thick.Refinements[i].None())
-    {
-      scene.Grids[i] = Refined(scene.Grids[i], thick.Refinements[i]);
-    }
-  }
-}
-
 // As they come the bars are 0.48 to 1.7 times as bright as they are. Of white smoke of a mean free
 // path as wide as the duct, two cells are left across it, and the bars 3.5 % too dark.
 TEST(ThickSmoke, DarkBarsInADuct)
@@ -53,7 +40,7 @@ TEST(ThickSmoke, DarkBarsInADuct)
       SceneDescription scene = scenes::Tunnel(extinction, albedo);
       scene.Grids = {
         scenes::UniformSmoke(Vec3(0.0), {4, 1, 1}, {4 * across, across, across}, extinction)};
-      Refine(scene);
+      ASSERT_GT(RefineThickSmoke(scene, Most).Thick, 0U);
       const Solved solved(scene, 0.02);
       const SignMeasurement sign =
         MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
@@ -85,7 +72,7 @@ TEST(ThickSmoke, RoomInCellsOfFourMeanFreePaths)
       scenes::Plate({1.0, 1.0, 1.99}, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, 100.0, 0.5));
     const Scene coarse(scene);
     const ReferenceIntegrator reference(coarse);
-    Refine(scene);
+    ASSERT_GT(RefineThickSmoke(scene, Most).Thick, 0U);
     const Solved solved(scene, 0.02);
     for (const Vec3& point : {Vec3(1.0, 1.0, 1.6), Vec3(1.4, 0.8, 1.7), Vec3(0.7, 1.3, 1.4)})
     {
