@@ -283,6 +283,7 @@ void vtkSmokeLightField::Refine(Task& task) const
     task.Blocks.Smoke[i].Refinement = thick.Refinements[i];
     refined = refined || !thick.Refinements[i].None();
   }
+  smokevis::RequireMemoryForLight(task.Blocks, this->Bands);
   const std::string cells = std::to_string(thick.Cells);
   task.Report.push_back(
     {"thick smoke cells refined", refined ? static_cast<double>(thick.Thick) : 0.0,
@@ -321,9 +322,10 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
       "Connect signs or lamps, such as the sources ExitSign and Luminaire, or set SkyLuminance");
   }
   task.Options = this->Options(smoke, report);
+  smokevis::RequireMemoryForLight(blocks, this->Bands);
+
   task.Description = smokevis::BuildScene(blocks, task.Options);
   this->Refine(task);
-  smokevis::RequireMemoryForLight(blocks, this->Bands);
   task.Description.LeapsClearAir = this->SkipNeedlessWork;
   if (this->Bands == RGB && this->SkipNeedlessWork && smokevis::BandsAreEqual(task.Description))
   {

@@ -60,8 +60,24 @@ public:
   {
     /// Their ways were told by others'.
     std::size_t Told = 0;
+    /// So were the ways from cells around the block, which tell how light changes in it.
+    std::size_t ToldAround = 0;
+    /// What uneven smoke makes of a far light was told by other cells.
+    std::size_t ToldUneven = 0;
+    /// They see nothing of it.
+    std::size_t Unseen = 0;
     /// They were left out: the light adds less there than single precision shows.
     std::size_t Negligible = 0;
+
+    BlockWork& operator+=(const BlockWork& other)
+    {
+      this->Told += other.Told;
+      this->ToldAround += other.ToldAround;
+      this->ToldUneven += other.ToldUneven;
+      this->Unseen += other.Unseen;
+      this->Negligible += other.Negligible;
+      return *this;
+    }
   };
   /// Adds a light's mean fluence in the cells of a block [lx]. Ways from afar to neighbouring cells
   /// are much the same: where a few of them tell the rest, they do.
@@ -374,7 +390,7 @@ private:
   void AddKept(std::size_t light, const Medium::Block& block, std::vector<Spectrum>& sums) const;
   /// Adds the light to the cells of a block that are asked for.
   /// @param shown share of it that is not hidden, of each cell
-  void AddAsked(std::size_t light, const Known& known, const Medium::Block& block,
+  BlockWork AddAsked(std::size_t light, const Known& known, const Medium::Block& block,
     const std::vector<bool>& asked, const std::vector<double>& shown, const BlockWays& ways,
     std::vector<Spectrum>& sums) const;
   /// Adds the light to a block within the one that this is known of.

@@ -224,9 +224,7 @@ DirectLight::BlockWork DirectLight::AddPartsFluence(std::size_t light, Known& kn
     }
     if (child.Cells() > 0)
     {
-      const BlockWork own = this->AddBlockFluence(light, known, child, skips, sums);
-      work.Told += own.Told;
-      work.Negligible += own.Negligible;
+      work += this->AddBlockFluence(light, known, child, skips, sums);
     }
   }
   return work;
@@ -249,9 +247,9 @@ void DirectLight::AddKept(
     });
 }
 
-void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::Block& block,
-  const std::vector<bool>& asked, const std::vector<double>& shown, const BlockWays& ways,
-  std::vector<Spectrum>& sums) const
+DirectLight::BlockWork DirectLight::AddAsked(std::size_t light, const Known& known,
+  const Medium::Block& block, const std::vector<bool>& asked, const std::vector<double>& shown,
+  const BlockWays& ways, std::vector<Spectrum>& sums) const
 {
   const Medium& smoke = this->Scene_.Smoke();
   const bool far = !ways.Extinction.empty();
@@ -264,8 +262,11 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       });
   }
   const bool weak = ways.Share < WeakShare;
+  BlockWork work;
+  work.Told = ways.Told;
   const std::vector<Deepening> deepening = known.Ways.DeepeningIn(block, asked, extinction,
-    ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough);
+    ways.Told > 0 ? std::optional(WayTolerance) : std::nullopt, weak || ways.Rough,
+    work.ToldAround);
   std::vector<std::optional<BoxLight>> lights(block.Cells());
   block.ForEachCell(
     [&](const std::array<int, 3>& place)
@@ -289,12 +290,15 @@ void DirectLight::AddAsked(std::size_t light, const Known& known, const Medium::
       }
       const BoxLight& own = *lights[number];
       Spectrum fluence = this->CellFluence(own, even || uneven);
-      for (int band = 0; uneven && !this->KnowsUneven(own) && band < this->Scene_.Bands(); ++band)
+      const bool told = uneven && !this->KnowsUneven(own);
+      work.ToldUneven += told ? 1 : 0;
+      for (int band = 0; told && band < this->Scene_.Bands(); ++band)
       {
         fluence[band] *= std::exp(BetweenCorners((*uneven)[band], block, place));
       }
       Accumulate(sums[own.Cell], fluence, shown[number]);
     });
+  return work;
 }
 
 DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& known,
@@ -307,7 +311,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
     smoke.BoxOf(smoke.Cell(block, {block.Size[0] - 1, block.Size[1] - 1, block.Size[2] - 1})));
   if (Behind(root, bounds.Centre(), bounds.Size()))
   {
-    return {};
+    return {.Unseen = block.Cells()};
   }
   const bool far = skips && this->FarFrom(root, block);
   BlockWays ways{block};
@@ -321,7 +325,7 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   }
   if (ways.Share < NegligibleShare)
   {
-    return {0, block.Cells()};
+    return {.Negligible = block.Cells()};
   }
   const std::vector<double> shown = this->ShownIn(light, block, ways.Share < WeakShare, known);
   std::vector<bool> asked(shown.size());
@@ -342,16 +346,18 @@ DirectLight::BlockWork DirectLight::AddBlockFluence(std::size_t light, Known& kn
   }
   // What is kept of a light near to a cell is taken from the sum again, to the same digits.
   this->AddKept(light, block, sums);
-  if (lit.Cells() == 0)
-  {
-    return {ways.Told, 0};
-  }
+  const auto seeing = static_cast<std::size_t>(std::count(asked.begin(), asked.end(), true));
+  BlockWork work;
+  work.Unseen = block.Cells() - seeing;
   if (ways.Share < NegligibleShare)
   {
-    return {0, static_cast<std::size_t>(std::count(asked.begin(), asked.end(), true))};
+    work.Negligible = seeing;
   }
-  this->AddAsked(light, known, block, asked, shown, ways, sums);
-  return {ways.Told, 0};
+  else if (seeing > 0)
+  {
+    work += this->AddAsked(light, known, block, asked, shown, ways, sums);
+  }
+  return work;
 }
 
 } // namespace smokevis

@@ -11,8 +11,9 @@
 #include "Team.h"
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
+
+#include <tbb/combinable.h>
 
 namespace smokevis
 {
@@ -172,8 +173,7 @@ void DirectSolve::Cells()
   const DirectLight direct(this->Scene_, &this->Scene_.Near(tolerance), tolerance);
   this->NearCells();
   this->AddParts(direct);
-  std::atomic<std::size_t> told{0};
-  std::atomic<std::size_t> negligible{0};
+  tbb::combinable<DirectLight::BlockWork> works;
   this->ForOwn(this->Blocks_.size(), 1, PartShare, CellShare,
     [&](std::size_t block)
     {
@@ -182,18 +182,26 @@ void DirectSolve::Cells()
       for (const std::size_t light : this->StrongestFirst(this->Blocks_[block]))
       {
         const std::vector<Spectrum> before = this->SumsIn(block, light);
-        const DirectLight::BlockWork work =
+        works.local() +=
           direct.AddBlockFluence(light, around, borders, this->Options_.Skips, this->CellSums_);
-        told += work.Told;
-        negligible += work.Negligible;
         this->Note(block, light, before);
       }
     });
-  this->Field_.Report.push_back({"optical depths between cells and lights not walked",
-    static_cast<double>(this->Team_.Sum(told.load())), "neighbouring cells' ways tell them"});
-  this->Field_.Report.push_back(
-    {"direct light of cells not computed", static_cast<double>(this->Team_.Sum(negligible.load())),
-      "bounds of the light after its way through the smoke lie below 1e-7 of other lights'"});
+  DirectLight::BlockWork work;
+  works.combine_each([&work](const DirectLight::BlockWork& own) { work += own; });
+  const auto report = [this](const char* what, std::size_t count, const char* why) {
+    this->Field_.Report.push_back({what, static_cast<double>(this->Team_.Sum(count)), why});
+  };
+  report("optical depths between cells and lights not walked", work.Told,
+    "neighbouring cells' ways tell them");
+  report("optical depths around blocks of cells not walked", work.ToldAround,
+    "ways from the corners of a layer of cells tell them");
+  report("looks at far lights through uneven smoke not taken", work.ToldUneven,
+    "those from the corners of a block of cells tell them");
+  report("direct light of cells not looked for", work.Unseen,
+    "they lie behind a light's plate, or something hides all of it");
+  report("direct light of cells not computed", work.Negligible,
+    "bounds of the light after its way through the smoke lie below 1e-7 of other lights'");
 }
 
 void DirectSolve::Patches()

@@ -57,7 +57,6 @@ struct ThickCellsOfGrid
 /// @param aim optical depth of scattering that cells are to have at most
 ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double aim)
 {
-  CheckGrid(grid);
   ThickCellsOfGrid found;
   const std::array<int, 3> size = SizeOf(grid);
   for (int axis = 0; axis < 3; ++axis)
@@ -197,6 +196,10 @@ ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most)
       result.Thick += found.Matter() ? found.Thick : 0;
       result.Cells += found.Matter() ? found.Refinement.Cells() : grid.Extinction.size();
       refinements.push_back(found.Matter() ? std::move(found.Refinement) : GridRefinement());
+    }
+    if (result.Thick == 0)
+    {
+      break;
     }
     if (static_cast<double>(result.Cells) <= aim.Share * static_cast<double>(most))
     {

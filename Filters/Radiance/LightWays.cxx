@@ -32,9 +32,13 @@ public:
     if (allowed && this->There_ && told.WalkCorners() && told.CornersTell(*allowed))
     {
       told.TellRest(std::vector<bool>(this->Block_.Cells(), true), 2.0 * *allowed);
-      this->Told_ = told.Extinction();
+      this->Extinction_ = told.Extinction();
+      this->Told_ = told.Told();
     }
   }
+
+  /// How many ways were told.
+  std::size_t Told() const { return this->Told_; }
 
   /// Mean along the way from a cell beside one of the block [1/m]; none where that is not one of
   /// the layer, but of another grid, or a part of a cell.
@@ -45,8 +49,8 @@ public:
     {
       return std::nullopt;
     }
-    return this->Told_.empty() ? this->Ways_.Extinction(this->Block_, place)
-                               : this->Told_[this->Block_.Number(place)];
+    return this->Extinction_.empty() ? this->Ways_.Extinction(this->Block_, place)
+                                     : this->Extinction_[this->Block_.Number(place)];
   }
 
 private:
@@ -55,7 +59,9 @@ private:
   Medium::Block Block_;
   int Axis_;
   bool There_ = false;
-  std::vector<double> Told_;
+  /// Told means along the ways [1/m]; empty: they are walked.
+  std::vector<double> Extinction_;
+  std::size_t Told_ = 0;
 };
 
 } // namespace
@@ -170,7 +176,7 @@ Deepening LightWays::DeepeningOf(std::int64_t cell) const
 
 std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
   const std::vector<bool>& asked, const std::vector<double>& extinction,
-  const std::optional<double>& allowed, bool roughly) const
+  const std::optional<double>& allowed, bool roughly, std::size_t& told) const
 {
   // The ways from its cells, once they are asked for.
   std::vector<std::optional<CellWay>> ways(block.Cells());
@@ -221,6 +227,7 @@ std::vector<Deepening> LightWays::DeepeningIn(const Medium::Block& block,
           if (outside && !layer)
           {
             layer.emplace(this->Smoke_, *this, block, axis, side, allowed);
+            told += layer->Told();
           }
           return this->FromBeside(cell, way, axis, side,
             [&](std::int64_t beside)

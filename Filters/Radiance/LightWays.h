@@ -42,9 +42,10 @@ public:
   /// @param allowed by how much optical depths of ways from cells around the block may be off,
   /// where a few of them tell the rest; none: all are walked
   /// @param roughly whether it will do to take smoke for even
+  /// @param told takes how many of these
   std::vector<Deepening> DeepeningIn(const Medium::Block& block, const std::vector<bool>& asked,
-    const std::vector<double>& extinction, const std::optional<double>& allowed,
-    bool roughly) const;
+    const std::vector<double>& extinction, const std::optional<double>& allowed, bool roughly,
+    std::size_t& told) const;
 
 private:
   /// @param extinction mean along the way, if known [1/m]

@@ -101,10 +101,12 @@ TEST(Deepening, EvenSmoke)
 
 /// The same of two of three cells, unless a finer mesh covers them, from those of halves of blocks.
 /// @param visit(cell, alone, in a block)
+/// @return how many ways from around the blocks were told
 template <class Visit>
-void ForEachInBlocks(
+std::size_t ForEachInBlocks(
   const Medium& smoke, const LightGroup& light, const std::optional<double>& allowed, Visit&& visit)
 {
+  std::size_t told = 0;
   const LightWays alone(smoke, 1.0, light);
   for (const Medium::Block& whole : smoke.Blocks(8))
   {
@@ -130,7 +132,8 @@ void ForEachInBlocks(
             known[block.Number(place)] = alone.Extinction(smoke.Cell(block, place));
           }
         });
-      const std::vector<Deepening> around = ways.DeepeningIn(block, asked, known, allowed, false);
+      const std::vector<Deepening> around =
+        ways.DeepeningIn(block, asked, known, allowed, false, told);
       block.ForEachCell(
         [&](const std::array<int, 3>& place)
         {
@@ -143,6 +146,7 @@ void ForEachInBlocks(
         });
     }
   }
+  return told;
 }
 
 // Ways that the cells of a block share are the same as those that each cell walks for itself, also
@@ -156,7 +160,7 @@ TEST(Deepening, OfCellsThatShareTheirWays)
     coarse.Extinction[cell] *= 0.1F + static_cast<float>(cell * 37 % 101) / 50.0F;
   }
   const Medium smoke({coarse, fine});
-  ForEachInBlocks(smoke, LightAt({0.05, 0.47, 1.6}), std::nullopt,
+  const std::size_t told = ForEachInBlocks(smoke, LightAt({0.05, 0.47, 1.6}), std::nullopt,
     [](std::int64_t cell, const Deepening& alone, const Deepening& shared)
     {
       EXPECT_EQ(shared.Slope, alone.Slope) << "cell " << cell;
@@ -164,6 +168,7 @@ TEST(Deepening, OfCellsThatShareTheirWays)
       EXPECT_EQ(shared.Entry, alone.Entry) << "cell " << cell;
       EXPECT_EQ(shared.Mean, alone.Mean) << "cell " << cell;
     });
+  EXPECT_EQ(told, 0U);
 }
 
 // Where smoke changes slowly, a few ways from the layer across a face of a block tell the others,
@@ -178,7 +183,7 @@ TEST(Deepening, ToldFromBeyondABlock)
   const Medium smoke({grid});
   constexpr double allowed = 0.004;
   double largest = 0.0;
-  ForEachInBlocks(smoke, LightAt({6.0, 4.0, 3.0}), allowed,
+  const std::size_t told = ForEachInBlocks(smoke, LightAt({6.0, 4.0, 3.0}), allowed,
     [&](std::int64_t, const Deepening& alone, const Deepening& shared)
     {
       const Vec3 off = glm::abs(shared.Slope - alone.Slope);
@@ -186,6 +191,7 @@ TEST(Deepening, ToldFromBeyondABlock)
     });
   EXPECT_GT(largest, 0.0);
   EXPECT_LE(largest * CellEdge, allowed);
+  EXPECT_GT(told, 1000U);
 }
 
 // From the light's own place ways lead to all sides alike.

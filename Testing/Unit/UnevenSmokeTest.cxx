@@ -151,6 +151,9 @@ TEST(UnevenSmoke, FineCellsTellOfOthers)
     }
   }
   EXPECT_GT(changed, 1000U);
+  const char* const what = "looks at far lights through uneven smoke not taken";
+  EXPECT_GT(WorkCount(told.Field->Report, what), 1000.0);
+  EXPECT_EQ(WorkCount(alone.Report, what), 0.0);
   EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 0.002);
 }
 

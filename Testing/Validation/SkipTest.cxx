@@ -73,6 +73,30 @@ TEST(Skip, LampsFarOff)
   EXPECT_GT(skipping.Count("not walked"), 1000.0);
   EXPECT_EQ(all.Count("direct light of cells not computed"), 0.0);
   EXPECT_EQ(all.Count("not walked"), 0.0);
+  // A cell that lies behind a plate is not lit by it, whatever is left out.
+  const double unseen = skipping.Count("direct light of cells not looked for");
+  EXPECT_GT(unseen, 1000.0);
+  EXPECT_GE(unseen, all.Count("direct light of cells not looked for"));
+}
+
+// Where smoke changes from layer to layer, ways from around a block of cells, which say how light
+// changes inside it, are told as those from its cells are.
+TEST(Skip, WaysInLayers)
+{
+  SceneDescription scene = scenes::Corridor(1.0);
+  std::vector<float>& extinction = scene.Grids.front().Extinction;
+  const std::size_t layer = extinction.size() / 8;
+  for (std::size_t cell = 0; cell < extinction.size(); ++cell)
+  {
+    extinction[cell] *= 0.5F + static_cast<float>(cell / layer) / 7.0F;
+  }
+  const Outcome skipping = Solve(scene, true);
+  const Outcome all = Solve(scene, false);
+  report::Head("Corridor with 15 lamps and layers of smoke: with ways told, and with all walked");
+  report::Absolute("largest change of fluence", 0.0, LargestChange(skipping, all), 0.005);
+  EXPECT_GT(skipping.Count("between cells and lights not walked"), 10000.0);
+  EXPECT_GT(skipping.Count("around blocks of cells not walked"), 1000.0);
+  EXPECT_EQ(all.Count("not walked"), 0.0);
 }
 
 // A lamp a hundred million times as strong at the far end outshines the near ones even through
