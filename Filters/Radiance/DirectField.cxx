@@ -23,7 +23,7 @@ constexpr double FlatDepth = 0.41;
 /// Share of a cell's fluence below which what is left of it without the near lights' is rounding.
 constexpr double Rounding = 1e-6;
 /// Cosine of the angle to an axis up to which a plate faces along it.
-constexpr double AlongAxis = 0.999;
+constexpr double NearlyAlongAxis = 0.999;
 
 /// The planes of plates that face along an axis: there their light falls off to nothing.
 class LightPlanes
@@ -36,7 +36,7 @@ public:
       const LightGroup& root = lights.Root(light);
       for (int axis = 0; axis < 3; ++axis)
       {
-        if (std::abs(root.Normal[axis]) > AlongAxis && root.Plane() && !root.Law.Measured())
+        if (std::abs(root.Normal[axis]) > NearlyAlongAxis && root.Plane() && !root.Law.Measured())
         {
           this->Places_[Index(axis, root.Normal[axis] > 0.0 ? 0 : 1)].push_back(root.Centre[axis]);
         }

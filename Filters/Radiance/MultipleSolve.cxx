@@ -14,6 +14,7 @@
 #include "VeilProbes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -44,17 +45,19 @@ constexpr double CoarseDepth = 1.0;
 constexpr double NoiseDeviations = 3.0;
 
 /// Raises what is not direct of some light, where all of it is below zero by more than noise, to
-/// where all of it is zero: the batches' spread stays.
-void RaiseToDark(float direct, Lanes& lanes)
+/// where all of it is zero: the batches' spread stays. Returns whether that was done.
+bool RaiseToDark(float direct, Lanes& lanes)
 {
   const double light = direct + Mean(lanes);
-  if (light < 0.0 && light < -NoiseDeviations * StandardError(lanes))
+  if (!(light < 0.0 && light < -NoiseDeviations * StandardError(lanes)))
   {
-    for (float& value : lanes.Value)
-    {
-      value -= static_cast<float>(light);
-    }
+    return false;
   }
+  for (float& value : lanes.Value)
+  {
+    value -= static_cast<float>(light);
+  }
+  return true;
 }
 
 std::size_t CoarseCells(const Scene& scene, int band)
@@ -129,8 +132,9 @@ void MultipleSolve::Refine(BatchSweeps& sweeps, const VeilProbes& probes) const
   }
 }
 
-void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
+void MultipleSolve::Keep(int band, const std::string& name, const BatchSweeps& sweeps)
 {
+  std::atomic<std::size_t> raised{0};
   const std::vector<BatchState>& states = sweeps.States();
   const auto counted = static_cast<float>(sweeps.Counted());
   const auto keep = [&](std::vector<float> BatchState::*sums, const std::vector<float>& direct,
@@ -149,7 +153,7 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
         }
         for (std::size_t i = first + range.begin(); i < first + range.end(); ++i)
         {
-          RaiseToDark(direct[i], kept[i]);
+          raised += RaiseToDark(direct[i], kept[i]) ? 1 : 0;
         }
       });
   };
@@ -162,6 +166,11 @@ void MultipleSolve::Keep(int band, const BatchSweeps& sweeps)
         this->Field_.PatchIndex(band, 0, 0), 2 * this->Field_.Patches,
         this->Field_.MultipleIlluminance);
     });
+  if (raised > 0)
+  {
+    this->Say(name + "cells and sides of patches that are dark", static_cast<double>(raised),
+      "diffusion took away more light than there was, by more than noise");
+  }
 }
 
 void MultipleSolve::Gather(
@@ -301,7 +310,7 @@ void MultipleSolve::Band(int band)
   {
     balance.ScaleSums(powers, sweeps.States());
   }
-  this->Keep(band, sweeps);
+  this->Keep(band, name, sweeps);
   this->Gather(band, name, balance, sweeps);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),

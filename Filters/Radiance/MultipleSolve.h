@@ -42,7 +42,7 @@ private:
   void Refine(BatchSweeps& sweeps, const VeilProbes& probes) const;
   /// Keeps the means of the sums. Where diffusion took away more light than there was, which is
   /// where next to none comes, none is left.
-  void Keep(int band, const BatchSweeps& sweeps);
+  void Keep(int band, const std::string& name, const BatchSweeps& sweeps);
   /// Lets plates gather light that lines would rarely bring. Where no light leaves the scene, all
   /// is scaled to be in balance with them.
   void Gather(

@@ -2,8 +2,6 @@
 
 #include "Scene.h"
 
-#include <algorithm>
-
 #include <glm/gtc/constants.hpp>
 
 namespace smokevis
@@ -21,11 +19,6 @@ double OwnGlow::Fluence(std::int64_t cell) const
     this->Scene_.ExtinctionScale(this->Band_) * smoke.Extinction(cell) * smoke.MeanChord(cell);
   const double absorbed = (1.0 - this->Scene_.Albedo()) * depth;
   return 4.0 * glm::pi<double>() * luminance * absorbed / (1.0 + absorbed) * depth / (1.0 + depth);
-}
-
-double OwnGlow::VaryingShare(std::int64_t cell, double fluence) const
-{
-  return std::max(0.0, 1.0 - this->Fluence(cell) / fluence);
 }
 
 } // namespace smokevis

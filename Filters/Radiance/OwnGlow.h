@@ -24,7 +24,15 @@ public:
   double Fluence(std::int64_t cell) const;
   /// Share of a cell's light that varies in it as it does between cells.
   /// @param fluence all of that light [lx], more than 0
-  double VaryingShare(std::int64_t cell, double fluence) const;
+  double VaryingShare(std::int64_t cell, double fluence) const
+  {
+    return ShareBeside(this->Fluence(cell), fluence);
+  }
+  /// The same where Fluence(cell) is known.
+  static double ShareBeside(double own, double fluence)
+  {
+    return fluence > own ? 1.0 - own / fluence : 0.0;
+  }
 
 private:
   const Scene& Scene_;

@@ -26,6 +26,7 @@ public:
   /// None.
   ShapeNoise() = default;
   /// @param scene must outlive this
+  /// @param band that the field is of
   /// @param lanes batches of the field, a value a cell; must outlive this
   /// @param means of the batches, 0 in cells that shapes leave out
   /// @param shape from those means

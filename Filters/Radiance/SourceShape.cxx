@@ -167,7 +167,7 @@ void SourceShape::Follow(const std::vector<BatchState>& batches)
         const auto value = [&](std::int64_t there)
         { return means[there] + (varies ? 0.0F : this->DirectFluence_[there]); };
         const float here = value(cell);
-        const float share = here > own.Glow ? 1.0F - own.Glow / here : 0.0F;
+        const auto share = static_cast<float>(OwnGlow::ShareBeside(own.Glow, here));
         Slope slope{};
         float change = 0.0F;
         for (int axis = 0; axis < 3; ++axis)
