@@ -4,6 +4,7 @@
 #include "LightArrays.h"
 #include "SmokeLightArrays.h"
 
+#include <algorithm>
 #include <array>
 
 namespace smokevis
@@ -132,7 +133,10 @@ std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks)
 //------------------------------------------------------------------------------
 bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
 {
-  if (CellCounts(from) != CellCounts(to))
+  const bool sameCells =
+    std::equal(from.Smoke.begin(), from.Smoke.end(), to.Smoke.begin(), to.Smoke.end(),
+      [](const SmokeBlock& a, const SmokeBlock& b) { return a.Refinement == b.Refinement; });
+  if (CellCounts(from) != CellCounts(to) || !sameCells)
   {
     return false;
   }

@@ -34,7 +34,7 @@ void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks&
 std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks);
 
 /// Gives blocks the light field of others; the arrays are shared. Returns false, and does nothing,
-/// where the blocks have other numbers of cells.
+/// where the blocks have other numbers of cells or were refined in another way.
 bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to);
 
 /// Reads the light field back. Throws Error where an array is missing or has another size.

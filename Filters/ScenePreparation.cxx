@@ -144,7 +144,7 @@ void RequireMemoryForLight(const SceneBlocks& blocks, int bands)
     "the light of " + std::to_string(std::llround(cells)) + " smoke cells and " +
       std::to_string(std::llround(patches)) + " surface patches",
     cells * (CellBytes + CellBandBytes * bands) + patches * (PatchBytes + PatchBandBytes * bands),
-    "Give coarser smoke, one band or a larger PatchSize");
+    "Give coarser smoke, one band, a larger PatchSize or a smaller MaximumRefinedCells");
 }
 
 } // namespace smokevis

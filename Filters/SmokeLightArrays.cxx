@@ -27,6 +27,8 @@ const char* const RefinedMultiple = "RefinedMultipleFluence";
 constexpr std::array FieldArrays = {
   PartDirect, PartMultiple, Refinement, RefinedDirect, RefinedMultiple};
 
+/// Share of a cell's volume that counts at least.
+constexpr double LeastShare = 1e-6;
 /// Most parts that a cell is cut into along an axis, by far.
 constexpr int MostParts = 1000;
 
@@ -92,7 +94,8 @@ void StoreFields(const LightField& field, const std::vector<std::int64_t>& numbe
   fields.AddArray(multiple);
 }
 
-/// The light of one band that some cells of a scene hold in the mean.
+/// The light of one band that some cells of a scene hold in the mean. What finer grids lie over
+/// counts only where there is nothing else.
 class MeanLight
 {
 public:
@@ -102,7 +105,8 @@ public:
     smoke.Parts().ForEachPart(cell,
       [&](std::int64_t number)
       {
-        const double volume = smoke.CellVolume(number);
+        const double volume =
+          std::max(smoke.OwnVolume(number), LeastShare * smoke.CellVolume(number));
         const std::size_t index = field.CellIndex(band, number);
         this->Volume_ += volume;
         this->Direct_ += volume * field.DirectFluence[index];
@@ -373,13 +377,17 @@ GridRefinement RefinementOf(vtkDataSet& grid, const std::string& name)
 {
   GridRefinement refinement;
   vtkDataArray* const array = grid.GetFieldData()->GetArray(Refinement);
+  const std::string where = std::string("field array ") + Refinement + " of block '" + name + "'";
+  const char* const remedy = "Give the output of SmokeLightField, or a file that it was saved to";
   if (!array)
   {
+    if (grid.GetFieldData()->HasArray(RefinedMultiple))
+    {
+      throw Error(where, "it is missing beside the light of finer cells", remedy);
+    }
     return refinement;
   }
   const std::array<int, 3> cells = CellsAlong(grid);
-  const std::string where = std::string("field array ") + Refinement + " of block '" + name + "'";
-  const char* const remedy = "Give the output of SmokeLightField, or a file that it was saved to";
   if (array->GetNumberOfValues() != std::accumulate(cells.begin(), cells.end(), vtkIdType{0}))
   {
     throw Error(where, "it has not one value for each interval between nodes", remedy);

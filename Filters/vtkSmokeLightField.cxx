@@ -26,6 +26,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 vtkStandardNewMacro(vtkSmokeLightField);
 
@@ -180,18 +181,26 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
-void vtkSmokeLightField::WarnOfCoarseCells(const smokevis::LightField& field)
+void vtkSmokeLightField::WarnOfCoarseCells(
+  const smokevis::LightField& field, const SceneBlocks& blocks)
 {
-  if (static_cast<double>(field.CoarseCells) >
-      smokevis::TolerableThickShare * static_cast<double>(field.Cells))
+  double given = 0.0;
+  for (const smokevis::SmokeBlock& block : blocks.Smoke)
+  {
+    given += static_cast<double>(block.Grid->GetNumberOfCells());
+  }
+  // Refined cells are no reason to keep silent about others.
+  if (static_cast<double>(field.CoarseCells) > smokevis::TolerableThickShare * given)
   {
     vtkWarningMacro(
-      << "Smoke: " << field.CoarseCells << " of " << field.Cells
-      << " cells are so thick that light is scattered more than once on a mean way "
+      << "Smoke: " << field.CoarseCells << " of the " << field.Cells
+      << " cells that it is solved in"
+      << " are so thick that light is scattered more than once on a mean way "
       << "through them. What lies in the dark behind several of them may come out "
       << "a third too bright, in white smoke half as bright as it is, and many times too bright "
-      << "where they are thicker than four mean free paths, which no error bar tells: raise "
-      << "MaximumRefinedCells, or give smoke on a finer grid.");
+      << "where they are thicker than four mean free paths, which no error bar tells. The "
+      << "WorkReport says whether a larger MaximumRefinedCells helps; otherwise give smoke on a "
+      << "finer grid.");
   }
 }
 
@@ -219,7 +228,7 @@ void vtkSmokeLightField::SolveBlocks(Task& task)
     { field = smokevis::SolveLightField(*scene, solver, progress); });
   task.Waited = team.Waited();
   task.Report.insert(task.Report.end(), field.Report.begin(), field.Report.end());
-  this->WarnOfCoarseCells(field);
+  this->WarnOfCoarseCells(field, task.Blocks);
   ranks.Together(this,
     [&] { smokevis::StoreLightField(std::move(field), scene->Smoke(), task.Blocks, this->Bands); });
 }
@@ -275,22 +284,39 @@ void vtkSmokeLightField::AddProperties(smokevis::Agreement& agreement) const
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::Refine(Task& task) const
 {
-  const smokevis::ThickSmoke thick = smokevis::RefineThickSmoke(
-    task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
-  bool refined = false;
+  const smokevis::ThickSmoke thick =
+    smokevis::FindThickSmoke(task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
   for (std::size_t i = 0; i < thick.Refinements.size(); ++i)
   {
     task.Blocks.Smoke[i].Refinement = thick.Refinements[i];
-    refined = refined || !thick.Refinements[i].None();
   }
   smokevis::RequireMemoryForLight(task.Blocks, this->Bands);
-  const std::string cells = std::to_string(thick.Cells);
-  task.Report.push_back(
-    {"thick smoke cells refined", refined ? static_cast<double>(thick.Thick) : 0.0,
-      thick.Thick == 0 ? "no more than a hundredth of a grid's smoke is so thick"
-      : refined        ? "light varies inside them; the smoke is solved in " + cells + " cells"
-                       : std::to_string(thick.Thick) + " thick cells would make " + cells +
-                    " cells, more than MaximumRefinedCells"});
+  smokevis::Refine(task.Description.Grids, thick.Refinements);
+
+  std::ostringstream why;
+  if (thick.IsRefined())
+  {
+    why << "light varies inside them: their grids are solved in " << thick.Cells
+        << " cells, of at most " << thick.Depth << " scattering depths or a twentieth of their own";
+  }
+  else if (thick.Cells > 0)
+  {
+    why << thick.Thick << " thick cells would take " << thick.Cells
+        << " cells at least, more than MaximumRefinedCells";
+  }
+  else if (thick.Opaque > 0)
+  {
+    why << thick.Opaque
+        << " cells are next to opaque: they scatter more than fifteen depths, and are left as they "
+           "are";
+  }
+  else
+  {
+    why << (task.Options.Albedo > 0.0 ? "no more than a hundredth of a grid's smoke is so thick"
+                                      : "smoke that scatters no light needs no finer cells");
+  }
+  task.Report.push_back({"thick smoke cells refined",
+    thick.IsRefined() ? static_cast<double>(thick.Thick) : 0.0, why.str()});
 }
 
 //------------------------------------------------------------------------------

@@ -172,12 +172,13 @@ public:
 
   ///@{
   /**
-   * Most cells that smoke is refined to, from 0. In white smoke light falls off to walls and away
-   * from lights within a mean free path or two. Grids of which more than a hundredth of the smoke
-   * has cells thicker than three quarters of one (of soot, which scatters less, than 1.9 at most),
-   * but not than ten (25), are solved and looked at in finer cells: of half of one where that takes
-   * an eighth of this number at most, of three quarters or a whole one otherwise. The output keeps
-   * the cells of the input. 0: none are refined. Default: 1000000.
+   * Most cells that grids of thick smoke are refined to, all together, from 0. In white smoke light
+   * falls off to walls and away from lights within a mean free path or two. Grids of which more
+   * than a hundredth of the smoke is in cells that scatter more than three quarters of an optical
+   * depth (of soot, two fifths of all extinction count at least) are solved and looked at in finer
+   * cells: of half a depth where that takes an eighth of this number at most, otherwise of 0.75, 1,
+   * 1.5 or 2, or of a twentieth of their own. Cells of more than fifteen along their shortest
+   * edge stay. The output keeps the cells of the input. 0: none are refined. Default: 500000.
    */
   vtkSetMacro(MaximumRefinedCells, int);
   vtkGetMacro(MaximumRefinedCells, int);
@@ -212,7 +213,7 @@ private:
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
   /// Warns where a part of the smoke's cells is too coarse for what it is to tell.
-  void WarnOfCoarseCells(const smokevis::LightField& field);
+  void WarnOfCoarseCells(const smokevis::LightField& field, const smokevis::SceneBlocks& blocks);
   /// What the properties, and the smoke's own albedo, make of the scene.
   smokevis::SceneOptions Options(
     vtkDataObject* smoke, std::vector<smokevis::WorkItem>& report) const;
@@ -240,7 +241,7 @@ private:
   bool SkipNeedlessWork = true;
   int Seed = 1;
   double PatchSize = 0.0;
-  int MaximumRefinedCells = 1000000;
+  int MaximumRefinedCells = 500000;
   int Threads = 0;
 
   struct Internals;

@@ -13,17 +13,23 @@ namespace smokevis
 namespace
 {
 
-/// Optical depth of scattering along the longest edge of a cell above which it is too thick, and
-/// that above which it stays as it is: next to opaque.
+/// Optical depth of scattering along the longest edge of a cell above which it is too thick; along
+/// the shortest one that above which it is next to opaque, and would need so many finer cells that
+/// they take minutes; and that along the longest one below which it counts as clear air.
 constexpr double ThickDepth = 0.75;
-constexpr double OpaqueDepth = 10.0;
-/// Those that are aimed at, best first, and the share of the cells that refined grids may have
-/// which that may take.
+constexpr double OpaqueDepth = 15.0;
+constexpr double TraceDepth = 0.01 * ThickDepth;
+/// Share of a depth that is rounding, of extinctions in single precision and of nodes far off.
+constexpr double Rounding = 1e-4;
+/// Depths that are aimed at, best first, and the share of the cells that there may be which each
+/// may take.
 struct Aim
 {
   double Depth, Share;
 };
-constexpr std::array<Aim, 3> Aims = {{{0.5, 0.125}, {0.75, 1.0}, {1.0, 1.0}}};
+constexpr std::array<Aim, 5> Aims = {
+  {{0.5, 0.125}, {0.75, 1.0}, {1.0, 1.0}, {1.5, 1.0}, {2.0, 1.0}}};
+constexpr int MostParts = 20;
 /// Soot of a lower albedo counts as if it had this one.
 constexpr double LeastAlbedo = 0.4;
 
@@ -40,17 +46,19 @@ double Edge(const SmokeGrid& grid, int axis, int interval)
   return grid.Nodes[axis][interval + 1] - grid.Nodes[axis][interval];
 }
 
-/// Smoke of a grid that is thicker than a depth.
+/// Smoke of a grid by how thick it is.
 struct ThickCellsOfGrid
 {
   GridRefinement Refinement;
-  std::size_t Thick = 0, Smoky = 0;
+  std::size_t Cells = 0, Smoky = 0, Thick = 0, Opaque = 0;
 
-  bool Matter() const
+  bool Matter() const { return this->IsMuch(this->Thick); }
+  bool IsMuch(std::size_t cells) const
   {
-    return static_cast<double>(this->Thick) >
-           TolerableThickShare * static_cast<double>(this->Smoky);
+    return static_cast<double>(cells) > TolerableThickShare * static_cast<double>(this->Smoky);
   }
+  /// Whether any cell is to be cut.
+  bool Refines() const { return this->Refinement.Cells() > this->Cells; }
 };
 
 /// @param scattering coefficient over the extinction coefficient
@@ -58,6 +66,7 @@ struct ThickCellsOfGrid
 ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double aim)
 {
   ThickCellsOfGrid found;
+  found.Cells = grid.Extinction.size();
   const std::array<int, 3> size = SizeOf(grid);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -66,27 +75,28 @@ ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double
   ForEachPlace(size,
     [&](const std::array<int, 3>& place)
     {
-      const float extinction = grid.Extinction[PlaceNumber(size, place)];
-      if (!(extinction > 0.0F))
-      {
-        return;
-      }
+      const double scattered =
+        (1.0 - Rounding) * scattering * grid.Extinction[PlaceNumber(size, place)];
       std::array<double, 3> depths;
       for (int axis = 0; axis < 3; ++axis)
       {
-        depths[axis] = scattering * extinction * Edge(grid, axis, place[axis]);
+        depths[axis] = scattered * Edge(grid, axis, place[axis]);
       }
-      ++found.Smoky;
-      const double deepest = *std::max_element(depths.begin(), depths.end());
-      if (deepest <= ThickDepth || deepest > OpaqueDepth)
+      const auto [shortest, longest] = std::minmax_element(depths.begin(), depths.end());
+      found.Smoky += *longest > TraceDepth ? 1 : 0;
+      if (*shortest > OpaqueDepth)
       {
-        return;
+        ++found.Opaque;
       }
-      ++found.Thick;
-      for (int axis = 0; axis < 3; ++axis)
+      else if (*longest > ThickDepth)
       {
-        int& most = found.Refinement.Parts[axis][place[axis]];
-        most = std::max(most, static_cast<int>(std::ceil(depths[axis] / aim)));
+        ++found.Thick;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          int& most = found.Refinement.Parts[axis][place[axis]];
+          const double parts = std::min<double>(MostParts, std::ceil(depths[axis] / aim));
+          most = std::max(most, static_cast<int>(parts));
+        }
       }
     });
   return found;
@@ -174,7 +184,13 @@ SmokeGrid Refined(const SmokeGrid& grid, const GridRefinement& refinement)
   return fine;
 }
 
-ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most)
+bool ThickSmoke::IsRefined() const
+{
+  return std::any_of(this->Refinements.begin(), this->Refinements.end(),
+    [](const GridRefinement& refinement) { return !refinement.None(); });
+}
+
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
 {
   ThickSmoke result;
   result.Refinements.resize(scene.Grids.size());
@@ -182,39 +198,53 @@ ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most)
   {
     return result;
   }
+  for (const SmokeGrid& grid : scene.Grids)
+  {
+    CheckGrid(grid);
+  }
   const double scattering =
     std::max(LeastAlbedo, scene.Albedo) *
     *std::max_element(scene.ExtinctionScale.begin(), scene.ExtinctionScale.begin() + scene.Bands);
   for (const Aim& aim : Aims)
   {
-    std::vector<GridRefinement> refinements;
-    result.Thick = 0;
-    result.Cells = 0;
+    ThickSmoke found;
     for (const SmokeGrid& grid : scene.Grids)
     {
-      ThickCellsOfGrid found = FindThickCells(grid, scattering, aim.Depth);
-      result.Thick += found.Matter() ? found.Thick : 0;
-      result.Cells += found.Matter() ? found.Refinement.Cells() : grid.Extinction.size();
-      refinements.push_back(found.Matter() ? std::move(found.Refinement) : GridRefinement());
+      ThickCellsOfGrid own = FindThickCells(grid, scattering, aim.Depth);
+      found.Thick += own.Matter() ? own.Thick : 0;
+      found.Opaque += own.IsMuch(own.Opaque) ? own.Opaque : 0;
+      const bool refines = own.Matter() && own.Refines();
+      found.Cells += refines ? own.Refinement.Cells() : 0;
+      found.Refinements.push_back(refines ? std::move(own.Refinement) : GridRefinement());
     }
-    if (result.Thick == 0)
+    if (!found.IsRefined())
     {
+      // A coarser aim would not do either.
+      result.Thick = found.Thick;
+      result.Opaque = found.Opaque;
       break;
     }
-    if (static_cast<double>(result.Cells) <= aim.Share * static_cast<double>(most))
+    found.Depth = aim.Depth;
+    if (static_cast<double>(found.Cells) <= aim.Share * static_cast<double>(most))
     {
-      result.Refinements = std::move(refinements);
-      break;
+      return found;
     }
-  }
-  for (std::size_t i = 0; i < scene.Grids.size(); ++i)
-  {
-    if (!result.Refinements[i].None())
-    {
-      scene.Grids[i] = Refined(scene.Grids[i], result.Refinements[i]);
-    }
+    result.Thick = found.Thick;
+    result.Opaque = found.Opaque;
+    result.Cells = found.Cells;
   }
   return result;
+}
+
+void Refine(std::vector<SmokeGrid>& grids, const std::vector<GridRefinement>& refinements)
+{
+  for (std::size_t i = 0; i < grids.size(); ++i)
+  {
+    if (!refinements[i].None())
+    {
+      grids[i] = Refined(grids[i], refinements[i]);
+    }
+  }
 }
 
 } // namespace smokevis

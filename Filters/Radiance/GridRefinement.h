@@ -20,6 +20,7 @@ struct GridRefinement
   /// as it is.
   std::array<std::vector<int>, 3> Parts;
 
+  bool operator==(const GridRefinement&) const = default;
   bool None() const { return this->Parts[0].empty(); }
   /// Cells of the finer grid.
   std::size_t Cells() const;
@@ -34,26 +35,37 @@ inline constexpr double TolerableThickShare = 0.01;
 /// The same smoke in smaller cells. Where it overlaps others, the grid counts as before.
 SmokeGrid Refined(const SmokeGrid& grid, const GridRefinement& refinement);
 
-/// What is found to be thick in a scene, and what becomes of it.
+/// What is found to be thick in a scene, and what may be done about it.
 struct ThickSmoke
 {
-  /// Of each grid; all none where nothing is refined.
+  /// Of each grid; all none where nothing is to be refined.
   std::vector<GridRefinement> Refinements;
-  /// Cells that are too thick, in grids where more than a tolerable share is.
-  std::size_t Thick = 0;
-  /// Cells of all grids when they are refined, even where that is not done.
+  /// Cells that are too thick, and those that are next to opaque, in grids where more than a
+  /// tolerable share is.
+  std::size_t Thick = 0, Opaque = 0;
+  /// Cells that the grids with thick ones are to have; where that would be too many, what the
+  /// coarsest refinement would take.
   std::size_t Cells = 0;
+  /// Optical depth of scattering along the edges of these, where twenty parts of a cell do for it.
+  double Depth = 0.0;
+
+  bool IsRefined() const;
 };
 
-/// Refines the grids of a scene so that light changes little inside a cell. Light that is scattered
-/// many times falls off to walls and away from lights within a mean free path or two; in cells of
-/// two up to half of it is lost, in cells of four nearly twice as much comes through
-/// (`ThickSmoke.DarkBarsInADuct`). Where cells scatter more than three quarters of a depth, they
-/// become cells of half of one where that takes an eighth of the cells that they may have at most,
-/// and of three quarters or a whole one otherwise. Soot counts as if it scattered two fifths: what
-/// little it sends on is the veil. Cells that scatter more than ten are left: they are next to
-/// opaque. Throws Error for grids that are not usable.
-/// @param most cells that all grids may have when some are refined
-ThickSmoke RefineThickSmoke(SceneDescription& scene, std::size_t most);
+/// Finds how to refine the grids of a scene so that light changes little inside a cell. Light that
+/// is scattered many times falls off to walls and away from lights within a mean free path or two;
+/// in cells of two up to half of it is lost, in cells of four nearly twice as much comes through
+/// (`ThickSmoke.DarkBarsInADuct`). Cells that scatter more than three quarters of a depth become
+/// cells of half of one where that takes an eighth of the cells that there may be at most, and
+/// otherwise of three quarters, one, one and a half or two, or a twentieth of their own. Soot
+/// counts as if it scattered two fifths: what little it sends on is the veil. Cells that scatter
+/// more than fifteen along their shortest edge are left: no sign is seen through one, and the light
+/// that gets through several comes out many times too bright. Throws Error for grids that are not
+/// usable.
+/// @param most cells that the grids with thick ones may have in all
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most);
+
+/// Refines grids, one by one.
+void Refine(std::vector<SmokeGrid>& grids, const std::vector<GridRefinement>& refinements);
 
 } // namespace smokevis

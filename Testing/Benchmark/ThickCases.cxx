@@ -107,7 +107,7 @@ void RunThick(const Settings& settings)
         SceneDescription description = scene.Make(scene.Edge);
         if (refined)
         {
-          RefineThickSmoke(description, 1000000);
+          Refine(description.Grids, FindThickSmoke(description, 500000).Refinements);
         }
         double seconds = 0.0;
         double dark = 0.0;

@@ -126,7 +126,7 @@ def check_views():
 
     # Smoke that cells are too coarse for, which may not be refined, is no error but a warning, given
     # once; what scatters less is not too thick.
-    for albedo, refined, warnings in ((0.9, 0, 1), (0.9, 1000000, 0), (0.1, 0, 0)):
+    for albedo, refined, warnings in ((0.9, 0, 1), (0.9, 500000, 0), (0.1, 0, 0)):
         thick = simple.SmokeLightField(Smoke=producer(image(CELLS, SIZE, extinction=20.0), "ThickSmoke"),
                                        Emitters=[simple.Luminaire(Center=[1, 0.5, 1])], Albedo=albedo,
                                        Tolerance=0.1, MaximumRefinedCells=refined)

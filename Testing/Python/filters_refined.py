@@ -31,22 +31,27 @@ def smoke(cells_along, cells_across):
     return data
 
 
+def grid_of(nodes, values):
+    """A rectilinear grid; of the extinction coefficients, x varies fastest."""
+    grid = vtkRectilinearGrid()
+    grid.SetDimensions([len(axis) for axis in nodes])
+    for axis, setter in zip(nodes, (grid.SetXCoordinates, grid.SetYCoordinates, grid.SetZCoordinates)):
+        setter(numpy_to_vtk(numpy.array(axis, dtype=float), deep=True))
+    scenes.add_cells(grid, "Extinction", values.ravel())
+    return grid
+
+
 def fine_smoke():
     """As it is to be refined: the near half has longer cells than the far one."""
     along, across = PARTS[1], PARTS[0]
     near = [i * 0.5 + j * 0.5 / along for i in range(4) for j in range(along)]
     far = [2.0 + i * 0.5 + j * 0.5 / across for i in range(4) for j in range(across)]
-    nodes = [numpy.array(near + far + [4.0])]
-    nodes += 2 * [numpy.array([i * 0.5 + j * 0.5 / across for i in range(2) for j in range(across)] + [1.0])]
-    grid = vtkRectilinearGrid()
-    grid.SetDimensions([len(axis) for axis in nodes])
-    for axis, setter in zip(nodes, (grid.SetXCoordinates, grid.SetYCoordinates, grid.SetZCoordinates)):
-        setter(numpy_to_vtk(axis, deep=True))
+    nodes = [near + far + [4.0]]
+    nodes += 2 * [[i * 0.5 + j * 0.5 / across for i in range(2) for j in range(across)] + [1.0]]
     values = numpy.empty([len(axis) - 1 for axis in reversed(nodes)])
     values[:, :, :len(near)] = EXTINCTIONS[0]
     values[:, :, len(near):] = EXTINCTIONS[1]
-    scenes.add_cells(grid, "Extinction", values.ravel())
-    return grid
+    return grid_of(nodes, values)
 
 
 def light_field(data, **properties):
@@ -137,9 +142,38 @@ for bands in ("Luminance", "RGB"):
 whole = light_field(smoke(COARSE[0] // 2, COARSE[1]), MaximumRefinedCells=0)
 data = fetch(whole)
 count, why = report(data)
-assert count == 0 and why.startswith("32 thick cells would make ") and why.endswith("more than MaximumRefinedCells")
+assert count == 0 and why.startswith("32 thick cells would take ") and why.endswith("more than MaximumRefinedCells"), why
 assert not block_of(data).GetFieldData().HasArray("Refinement")
 assert abs(look(whole)["UnlitLuminance"] / seen["UnlitLuminance"] - 1.0) > 0.1
+
+# Where a finer mesh lies over a part of a cell, its mean is that of the rest.
+over = image((5, 10, 10), (0.5, 1.0, 1.0), EXTINCTIONS[1], (2.2, 0.0, 0.0))
+pair = []
+for coarse in (smoke(COARSE[0] // 2, COARSE[1]), fine_smoke()):
+    both = simple.GroupDatasets(Input=[producer(coarse, "Coarse"), producer(over, "Over")])
+    pair.append(fetch(simple.SmokeLightField(Smoke=both, Emitters=[scenes.tunnel_sign()], Albedo=ALBEDO,
+                                             Tolerance=0.1)))
+block, fine = (block_of(data) for data in pair)
+assert block.GetNumberOfCells() == 32 and fine.GetNumberOfCells() > 32
+whole, volumes = parents(fine)
+middles = numpy.array([0.5 * sum(fine.GetCell(i).GetBounds()[:2]) for i in range(len(whole))])
+volumes[(middles > 2.2) & (middles < 2.7)] = 0.0
+means = numpy.bincount(whole, volumes * cell_array(fine, "Fluence")) / numpy.bincount(whole, volumes)
+assert numpy.allclose(cell_array(block, "Fluence"), means, rtol=1e-4), (cell_array(block, "Fluence"), means)
+
+# Another grid that is refined to the same cells is not the one before.
+across = [0.0, 0.5, 1.0]
+grids = [grid_of([nodes, across, across], numpy.full((2, 2, 5), 1.8))
+         for nodes in ([0, 1, 2, 3, 3.5, 4.5], [0, 1, 2, 3, 4, 4.5])]
+changing = producer(grids[0], "Changing")
+kept, fresh = (simple.SmokeLightField(Smoke=source, Emitters=[scenes.tunnel_sign()], Albedo=ALBEDO, Tolerance=0.1)
+               for source in (changing, producer(grids[1], "Fresh")))
+look(kept)
+changing.GetClientSideObject().SetOutput(grids[1])
+changing.MarkModified(None)
+assert look(kept) == look(fresh)
+first, second = (cell_array(block_of(fetch(source)), "Fluence") for source in (kept, fresh))
+assert numpy.array_equal(first, second), (first, second)
 
 # A light field whose refinement does not fit its grid is refused.
 broken = fetch(refined).NewInstance()
@@ -149,4 +183,8 @@ with scenes.Messages() as messages:
     simple.VisibilityImage(LightField=producer(broken, "Broken"), TargetSign=0).UpdatePipeline()
 assert messages.count("ERROR", "vtkVisibilityImage") == 1, messages.text
 assert "Refinement" in messages.text and "value 0 is 0" in messages.text, messages.text
+block_of(broken).GetFieldData().RemoveArray("Refinement")
+with scenes.Messages() as messages:
+    simple.VisibilityImage(LightField=producer(broken, "Bereft"), TargetSign=0).UpdatePipeline()
+assert "it is missing beside the light of finer cells" in messages.text, messages.text
 print("refined smoke: passed")

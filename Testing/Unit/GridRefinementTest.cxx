@@ -22,16 +22,6 @@ SceneDescription Row(double extinction, double albedo)
   return scene;
 }
 
-ThickSmoke Refine(SceneDescription scene, std::size_t most)
-{
-  return RefineThickSmoke(scene, most);
-}
-
-std::vector<int> Ones(std::size_t count)
-{
-  return std::vector<int>(count, 1);
-}
-
 TEST(GridRefinement, KeepsWhereSmokeIs)
 {
   SmokeGrid grid;
@@ -66,45 +56,79 @@ TEST(GridRefinement, LeavesWhatIsThin)
   for (const auto& [extinction, albedo] :
     {std::pair(0.75, 1.0), {1.0, 0.75}, {1.875, 0.3}, {50.0, 0.0}})
   {
-    const ThickSmoke thick = Refine(Row(extinction, albedo), Plenty);
+    const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
     EXPECT_EQ(thick.Thick, 0U);
-    EXPECT_TRUE(thick.Refinements.front().None());
+    EXPECT_FALSE(thick.IsRefined());
   }
 }
 
 TEST(GridRefinement, CutsWhatIsThick)
 {
-  for (const auto& [extinction, albedo, parts] :
-    {std::tuple(0.76, 1.0, 2), {4.0, 1.0, 8}, {4.0, 0.5, 4}, {4.0, 0.1, 4}, {9.9, 1.0, 20}})
+  for (const auto& [extinction, albedo, parts] : {std::tuple(0.76, 1.0, 2), {4.0, 1.0, 8},
+         {4.0, 0.5, 4}, {4.0, 0.1, 4}, {10.0, 1.0, 20}, {14.9, 1.0, 20}})
   {
-    const ThickSmoke thick = Refine(Row(extinction, albedo), Plenty);
+    SceneDescription scene = Row(extinction, albedo);
+    const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+    const std::size_t cells = 8U * parts * parts * parts;
     EXPECT_EQ(thick.Thick, 8U);
-    EXPECT_EQ(thick.Cells, 8U * parts * parts * parts);
+    EXPECT_EQ(thick.Cells, cells);
+    EXPECT_EQ(thick.Depth, 0.5);
     EXPECT_EQ(thick.Refinements.front().Parts[0], std::vector<int>(8, parts));
+    Refine(scene.Grids, thick.Refinements);
+    EXPECT_EQ(scene.Grids.front().Extinction.size(), cells);
   }
-  // The scene then has the finer grid.
-  SceneDescription scene = Row(0.76, 1.0);
-  RefineThickSmoke(scene, Plenty);
-  EXPECT_EQ(scene.Grids.front().Extinction, std::vector<float>(64, 0.76F));
   // Blue light is dimmed most.
   SceneDescription colours = Row(0.5, 1.0);
   colours.Bands = 3;
   colours.ExtinctionScale = {1.0, 1.5, 2.0};
-  EXPECT_EQ(Refine(colours, Plenty).Refinements.front().Parts[1], std::vector<int>{2});
+  EXPECT_EQ(FindThickSmoke(colours, Plenty).Refinements.front().Parts[1], std::vector<int>{2});
   // A single band is the first one.
   colours.Bands = 1;
-  EXPECT_EQ(Refine(colours, Plenty).Thick, 0U);
+  EXPECT_EQ(FindThickSmoke(colours, Plenty).Thick, 0U);
+}
+
+// Numbers that are round but for rounding make no stripes, whatever the unit of length and the
+// place of the origin.
+TEST(GridRefinement, IsEvenInEvenSmoke)
+{
+  for (const auto& [extinction, parts] :
+    {std::pair(7.5, 1), {10.0, 2}, {15.0, 3}, {50.0, 10}, {100.0, 20}})
+  {
+    for (const double unit : {1e-3, 1.0, 1e3})
+    {
+      for (const double origin : {0.0, 0.3, 7.0, 1e4})
+      {
+        SceneDescription scene;
+        scene.Albedo = 1.0;
+        scene.Grids = {scenes::UniformSmoke(unit * Vec3(origin),
+          unit * (Vec3(origin) + Vec3(1.0, 0.2, 0.2)), {10, 2, 2}, extinction / unit)};
+        const ThickSmoke thick = FindThickSmoke(scene, 4 * Plenty);
+        EXPECT_EQ(thick.IsRefined(), parts > 1);
+        if (thick.IsRefined())
+        {
+          EXPECT_EQ(thick.Refinements.front().Parts[0], std::vector<int>(10, parts));
+        }
+      }
+    }
+  }
 }
 
 TEST(GridRefinement, LeavesWhatIsOpaque)
 {
-  SceneDescription scene = Row(10.1, 1.0);
-  EXPECT_EQ(Refine(scene, Plenty).Thick, 0U);
+  SceneDescription scene = Row(15.1, 1.0);
+  const ThickSmoke opaque = FindThickSmoke(scene, Plenty);
+  EXPECT_FALSE(opaque.IsRefined());
+  EXPECT_EQ(opaque.Thick, 0U);
+  EXPECT_EQ(opaque.Opaque, 8U);
   scene.Grids.front().Extinction[5] = 1.0F;
-  const ThickSmoke thick = Refine(scene, Plenty);
+  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
   EXPECT_EQ(thick.Thick, 1U);
   EXPECT_EQ(thick.Refinements.front().Parts[0], (std::vector<int>{1, 1, 1, 1, 1, 2, 1, 1}));
   EXPECT_EQ(thick.Refinements.front().Parts[1], std::vector<int>{2});
+  // Slender cells are not opaque across.
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {100, 0.2, 0.2}, {1, 2, 2}, 5.0)};
+  EXPECT_EQ(FindThickSmoke(scene, Plenty).Refinements.front().Parts,
+    (std::array<std::vector<int>, 3>{{{20}, {1, 1}, {1, 1}}}));
 }
 
 // Flames of a few cells are not worth slabs of finer cells through all the hall.
@@ -116,37 +140,46 @@ TEST(GridRefinement, LeavesTheFewCellsOfAFlame)
   scene.Grids.push_back(scenes::UniformSmoke({20, 0, 0}, {30, 10, 2}, {10, 10, 2}, 0.1));
   scene.Grids[0].Extinction[55] = 5.0F;
   scene.Grids[0].Extinction[155] = 5.0F;
-  EXPECT_EQ(Refine(scene, Plenty).Thick, 0U);
+  EXPECT_EQ(FindThickSmoke(scene, Plenty).Thick, 0U);
   // Of half as much smoke, the same are too many; and only the grid that they lie in is refined.
-  std::fill(scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 0.0F);
-  const ThickSmoke thick = Refine(scene, Plenty);
+  // Traces, as simulations leave them in clear air, are no smoke.
+  std::fill(
+    scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 1e-30F);
+  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
   EXPECT_EQ(thick.Thick, 2U);
   EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{5, 5}));
-  std::vector<int> column = Ones(10);
+  std::vector<int> column(10, 1);
   column[5] = 5;
   EXPECT_EQ(thick.Refinements[0].Parts[0], column);
   EXPECT_TRUE(thick.Refinements[1].None());
-  EXPECT_EQ(thick.Cells, 14U * 14U * 10U + 200U);
+  EXPECT_EQ(thick.Cells, 14U * 14U * 10U);
 }
 
-// The finest of half a mean free path, three quarters, and a whole one that there is room for.
+// The finest that there is room for. The cells of thin grids take none of it.
 TEST(GridRefinement, TakesNoMoreCellsThanItMay)
 {
-  const SceneDescription scene = Row(3.0, 1.0);
+  SceneDescription scene = Row(3.0, 1.0);
+  scene.Grids.push_back(scenes::UniformSmoke({20, 0, 0}, {30, 10, 10}, {10, 10, 10}, 0.1));
   const auto parts = [&scene](std::size_t most)
   {
-    const ThickSmoke thick = Refine(scene, most);
+    const ThickSmoke thick = FindThickSmoke(scene, most);
     EXPECT_EQ(thick.Thick, 8U);
-    return thick.Refinements.front().None() ? 1 : thick.Refinements.front().Parts[1].front();
+    EXPECT_EQ(thick.IsRefined(), thick.Depth > 0.0);
+    return thick.IsRefined() ? thick.Refinements.front().Parts[1].front() : 1;
   };
   EXPECT_EQ(parts(8 * 8 * 216), 6);
   EXPECT_EQ(parts(8 * 8 * 216 - 1), 4);
   EXPECT_EQ(parts(8 * 64), 4);
   EXPECT_EQ(parts(8 * 64 - 1), 3);
-  EXPECT_EQ(parts(8 * 27), 3);
-  EXPECT_EQ(parts(8 * 27 - 1), 1);
+  EXPECT_EQ(parts(8 * 27 - 1), 2);
+  EXPECT_EQ(parts(8 * 8 - 1), 1);
   EXPECT_EQ(parts(0), 1);
-  EXPECT_EQ(Refine(scene, 0).Cells, 8U * 27U);
+  EXPECT_EQ(FindThickSmoke(scene, 0).Cells, 8U * 8U);
+  // Cells that a coarser aim leaves whole are not said to be refined.
+  const ThickSmoke whole = FindThickSmoke(Row(0.9, 1.0), 63);
+  EXPECT_FALSE(whole.IsRefined());
+  EXPECT_EQ(whole.Thick, 8U);
+  EXPECT_EQ(whole.Cells, 64U);
 }
 
 // Of two grids the finer one counts where they overlap, and goes on to when the other one is
@@ -169,7 +202,7 @@ TEST(GridRefinement, RefusesBrokenGrids)
 {
   SceneDescription scene = Row(3.0, 1.0);
   scene.Grids.front().Nodes[0][4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(Refine(scene, Plenty), Error);
+  EXPECT_THROW(FindThickSmoke(scene, Plenty), Error);
 }
 
 } // namespace
