@@ -42,7 +42,7 @@ public:
   /// @param allowed by how much optical depths of ways from cells around the block may be off,
   /// where a few of them tell the rest; none: all are walked
   /// @param roughly whether it will do to take smoke for even
-  /// @param told takes how many of these
+  /// @param told to which is added how many of the ways from around the block were told
   std::vector<Deepening> DeepeningIn(const Medium::Block& block, const std::vector<bool>& asked,
     const std::vector<double>& extinction, const std::optional<double>& allowed, bool roughly,
     std::size_t& told) const;
