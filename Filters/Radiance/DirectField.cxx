@@ -167,7 +167,10 @@ double DirectField::NearFluence(std::int64_t cell, const Vec3& origin, const Vec
   // Shadows and sharp beams would cost more than lines are worth, and what is not close is flat:
   // means do.
   const auto varies = [&](const NearLights::Light& light)
-  { return light.Clear && (light.Close || thick) && this->Lights_->Field(light.Index) != nullptr; };
+  {
+    return light.ClearBefore && (light.Close || thick) &&
+           this->Lights_->Field(light.Index) != nullptr;
+  };
   double sum = 0.0;
   double varying = 0.0;
   for (std::size_t i = 0; i < nearLights.size(); ++i)

@@ -28,6 +28,9 @@ constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
 /// A sign of more cells gathers for those that are to be bright and for the others alone.
 constexpr std::size_t MostOwnCells = 16;
+/// How far before a plate its rays begin: the smoke between is missing, where its light is
+/// brightest.
+constexpr double LiftTolerances = 2.0;
 /// Places by which it is told whether any of a plate is free.
 constexpr int Trials = 64;
 
@@ -187,7 +190,7 @@ PlateGather::Result PlateGather::Gather(
   const std::size_t index = task.Sign;
   const Sign& sign = this->Scene_.Lights().Signs()[index];
   const Vec3 tangent = glm::normalize(sign.Corners[1] - sign.Corners[0]);
-  const Vec3 lift = 10.0 * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  const Vec3 lift = LiftTolerances * this->Scene_.Shapes().Tolerance() * sign.Normal;
   const PlatePlaces places(this->Scene_.Lights(), task.Cells);
   const EvenPoints trials(Mix(index));
   int free = 0;

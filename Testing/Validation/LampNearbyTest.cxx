@@ -168,4 +168,47 @@ TEST(LampNearby, LevelWithItsPlane)
   }
 }
 
+// What the smoke right before a luminous sign sends back to it, wherever in a cell the sign hangs:
+// half comes from the first centimetres. A centimetre before the wall it was a tenth too little.
+TEST(LampNearby, SignLitByItsOwnVeil)
+{
+  constexpr double Tolerance = 0.025;
+  const Vec3 upper(6, 4, 3);
+  for (const double from : {6.0, 5.99, 5.9})
+  {
+    report::Head("Illuminance of a sign by its own veil, at " + std::to_string(from).substr(0, 4) +
+                 " of 6 m [lx]");
+    SceneDescription scene;
+    scene.Albedo = 0.6;
+    scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {24, 16, 12}, 0.1)};
+    scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.5, 0.0);
+    scene.Emitters =
+      scenes::Barcode({from, 2.2, 1.9}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 100.0, 0, 0.2);
+    const Solved solved(scene, 0.005);
+    const ReferenceIntegrator reference(*solved.TheScene);
+    for (const std::size_t cell : {0, 1})
+    {
+      const EmitterCell& own = scene.Emitters[cell];
+      Pcg32 random(1, cell);
+      Estimate expected;
+      constexpr int Places = 64;
+      for (int i = 0; i < Places; ++i)
+      {
+        const Vec3 place = own.Vertices[0] +
+                           random.Uniform() * (own.Vertices[1] - own.Vertices[0]) +
+                           random.Uniform() * (own.Vertices[3] - own.Vertices[0]);
+        const Estimate one = reference.Illuminance(place, {-1, 0, 0}, 15000, 64 * cell + i);
+        expected.Mean += one.Mean / Places;
+        expected.StandardError += std::pow(one.StandardError / Places, 2);
+      }
+      const std::size_t side =
+        solved.Field->PatchIndex(0, solved.TheScene->SurfacePatches() + cell, 0);
+      const Lanes& lanes = solved.Field->MultipleIlluminance[side];
+      report::Relative(cell == 0 ? "a lit bar" : "a dark bar", expected.Mean,
+        solved.Field->DirectIlluminance[side] + Mean(lanes), Tolerance,
+        std::hypot(std::sqrt(expected.StandardError), StandardError(lanes)));
+    }
+  }
+}
+
 } // namespace
