@@ -175,7 +175,7 @@ public:
    * Most cells that grids of thick smoke are refined to, all together, from 0. In white smoke light
    * falls off to walls and away from lights within a mean free path or two. Grids of which more
    * than a hundredth of the smoke is in cells that scatter more than three quarters of an optical
-   * depth (of soot, two fifths of all extinction count at least) are solved and looked at in finer
+   * depth (of soot, four fifths of all extinction count at least) are solved and looked at in finer
    * cells: of half a depth where that takes an eighth of this number at most, otherwise of 0.75, 1,
    * 1.5 or 2, or of a twentieth of their own. Cells of more than fifteen along their shortest
    * edge stay. The output keeps the cells of the input. 0: none are refined. Default: 500000.

@@ -31,8 +31,8 @@ constexpr std::array<Aim, 5> Aims = {
   {{0.5, 0.125}, {0.75, 1.0}, {1.0, 1.0}, {1.5, 1.0}, {2.0, 1.0}}};
 /// Most parts that a cell is cut into along an edge.
 constexpr int MostParts = 20;
-/// Soot of a lower albedo counts as if it had this one.
-constexpr double LeastAlbedo = 0.4;
+/// Soot of a lower albedo counts as if it had this one: light falls off in it all the same.
+constexpr double LeastAlbedo = 0.8;
 
 std::array<int, 3> SizeOf(const SmokeGrid& grid)
 {

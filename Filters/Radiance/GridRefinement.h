@@ -58,7 +58,7 @@ struct ThickSmoke
 /// (`ThickSmoke.DarkBarsInADuct`). Cells that scatter more than three quarters of a depth become
 /// cells of half of one where that takes an eighth of the cells that there may be at most, and
 /// otherwise of three quarters, one, one and a half or two, or a twentieth of their own. Soot
-/// counts as if it scattered two fifths: what little it sends on is the veil. Cells that scatter
+/// counts as if it scattered four fifths: what little it sends on is the veil. Cells that scatter
 /// more than fifteen along their shortest edge are left: no sign is seen through one, and the light
 /// that gets through several comes out many times too bright. Throws Error for grids that are not
 /// usable.

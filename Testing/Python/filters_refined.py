@@ -134,9 +134,9 @@ for bands in ("Luminance", "RGB"):
     again = simple.SmokeLightField(
         Smoke=producer(block, "Again"), Emitters=[scenes.tunnel_sign(Luminance=2.0)], Albedo=0.1,
         AngstromExponent=0.0, Tolerance=0.1)
-    assert report(fetch(again))[0] == 16
+    assert report(fetch(again))[0] == 32
     parts = block_of(fetch(again)).GetFieldData().GetArray("Refinement")
-    assert [parts.GetValue(i) for i in range(parts.GetNumberOfValues())] == 4 * [1] + 8 * [2]
+    assert [parts.GetValue(i) for i in range(parts.GetNumberOfValues())] == 4 * [3] + 8 * [4]
 
 # Off, white smoke comes out much too dark or too bright in such cells.
 whole = light_field(smoke(COARSE[0] // 2, COARSE[1]), MaximumRefinedCells=0)

@@ -51,10 +51,10 @@ TEST(GridRefinement, KeepsWhereSmokeIs)
 
 TEST(GridRefinement, LeavesWhatIsThin)
 {
-  // Three quarters of a mean free path of scattered light; of soot, two fifths of all counts as
+  // Three quarters of a mean free path of scattered light; of soot, four fifths of all counts as
   // such.
   for (const auto& [extinction, albedo] :
-    {std::pair(0.75, 1.0), {1.0, 0.75}, {1.875, 0.3}, {50.0, 0.0}})
+    {std::pair(0.75, 1.0), {0.83, 0.9}, {0.9375, 0.3}, {50.0, 0.0}})
   {
     const ThickSmoke thick = FindThickSmoke(Row(extinction, albedo), Plenty);
     EXPECT_EQ(thick.Thick, 0U);
@@ -65,7 +65,7 @@ TEST(GridRefinement, LeavesWhatIsThin)
 TEST(GridRefinement, CutsWhatIsThick)
 {
   for (const auto& [extinction, albedo, parts] : {std::tuple(0.76, 1.0, 2), {4.0, 1.0, 8},
-         {4.0, 0.5, 4}, {4.0, 0.1, 4}, {10.0, 1.0, 20}, {14.9, 1.0, 20}})
+         {4.0, 0.9, 8}, {2.0, 0.1, 4}, {10.0, 1.0, 20}, {14.9, 1.0, 20}})
   {
     SceneDescription scene = Row(extinction, albedo);
     const ThickSmoke thick = FindThickSmoke(scene, Plenty);
@@ -147,12 +147,12 @@ TEST(GridRefinement, LeavesTheFewCellsOfAFlame)
     scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 1e-30F);
   const ThickSmoke thick = FindThickSmoke(scene, Plenty);
   EXPECT_EQ(thick.Thick, 2U);
-  EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{5, 5}));
+  EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{8, 8}));
   std::vector<int> column(10, 1);
-  column[5] = 5;
+  column[5] = 8;
   EXPECT_EQ(thick.Refinements[0].Parts[0], column);
   EXPECT_TRUE(thick.Refinements[1].None());
-  EXPECT_EQ(thick.Cells, 14U * 14U * 10U);
+  EXPECT_EQ(thick.Cells, 17U * 17U * 16U);
 }
 
 // The finest that there is room for. The cells of thin grids take none of it.
