@@ -50,45 +50,23 @@ std::vector<std::int64_t> LaterParts(
   return numbers;
 }
 
-/// Copies the light of cells of a scene into arrays with a tuple each.
-class LightCopy
-{
-public:
-  LightCopy(const LightField& field, int bands, vtkFloatArray& direct, vtkFloatArray& multiple)
-      : Field_(field), Bands_(bands), Direct_(direct), Multiple_(multiple)
-  {
-  }
-
-  void operator()(std::int64_t number, vtkIdType tuple) const
-  {
-    for (int band = 0; band < this->Bands_; ++band)
-    {
-      const std::size_t index =
-        this->Field_.CellIndex(std::min(band, this->Field_.Bands - 1), number);
-      this->Direct_.SetTypedComponent(tuple, band, this->Field_.DirectFluence[index]);
-      CopyLanes(this->Field_.MultipleFluence[index],
-        this->Multiple_.GetPointer((tuple * this->Bands_ + band) * Batches));
-    }
-  }
-
-private:
-  const LightField& Field_;
-  int Bands_;
-  vtkFloatArray& Direct_;
-  vtkFloatArray& Multiple_;
-};
-
-/// Adds arrays of the light of some cells to field data.
-void StoreFields(const LightField& field, const std::vector<std::int64_t>& numbers, int bands,
+/// Adds arrays of the light of some cells of a scene to field data.
+/// @param number(i) of the i-th of these cells
+template <class Number>
+void StoreFields(const LightField& field, std::size_t count, Number&& number, int bands,
   const char* directName, const char* multipleName, vtkFieldData& fields)
 {
-  const auto count = static_cast<vtkIdType>(numbers.size());
-  const auto direct = MakeArray(directName, bands, count);
-  const auto multiple = MakeArray(multipleName, bands * Batches, count);
-  const LightCopy copy(field, bands, *direct, *multiple);
-  for (vtkIdType i = 0; i < count; ++i)
+  const auto tuples = static_cast<vtkIdType>(count);
+  const auto direct = MakeArray(directName, bands, tuples);
+  const auto multiple = MakeArray(multipleName, bands * Batches, tuples);
+  for (vtkIdType i = 0; i < tuples; ++i)
   {
-    copy(numbers[i], i);
+    for (int band = 0; band < bands; ++band)
+    {
+      const std::size_t index = field.CellIndex(std::min(band, field.Bands - 1), number(i));
+      direct->SetTypedComponent(i, band, field.DirectFluence[index]);
+      CopyLanes(field.MultipleFluence[index], multiple->GetPointer((i * bands + band) * Batches));
+    }
   }
   fields.AddArray(direct);
   fields.AddArray(multiple);
@@ -133,14 +111,6 @@ private:
   double Direct_ = 0.0;
   std::array<double, Batches> Multiple_{};
 };
-
-/// Numbers from a first one on.
-std::vector<std::int64_t> NumbersFrom(std::size_t first, std::size_t count)
-{
-  std::vector<std::int64_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first));
-  return numbers;
-}
 
 /// Adds the arrays of a block's cells.
 class CellArrays
@@ -271,13 +241,16 @@ void StoreSmoke(const LightField& field, const Medium& smoke, std::size_t firstC
   {
     StoreMeans(field, smoke, firstCell, bands, block);
     fields->AddArray(RefinementArray(block.Refinement));
-    StoreFields(field, NumbersFrom(firstCell, SceneCells(block)), bands, RefinedDirect,
-      RefinedMultiple, *fields);
+    StoreFields(
+      field, SceneCells(block), [firstCell](std::size_t i) { return firstCell + i; }, bands,
+      RefinedDirect, RefinedMultiple, *fields);
   }
   const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, SceneCells(block));
   if (!later.empty())
   {
-    StoreFields(field, later, bands, PartDirect, PartMultiple, *fields);
+    StoreFields(
+      field, later.size(), [&later](std::size_t i) { return later[i]; }, bands, PartDirect,
+      PartMultiple, *fields);
   }
   block.Grid->SetFieldData(fields);
 }
@@ -286,42 +259,44 @@ void StoreSmoke(const LightField& field, const Medium& smoke, std::size_t firstC
 void LoadSmoke(
   const SmokeBlock& block, const Medium& smoke, std::size_t firstCell, LightField& field)
 {
-  const auto load = [&field](const std::vector<std::int64_t>& numbers, const NeededArray& direct,
+  const auto load = [&field](std::size_t count, auto&& number, const NeededArray& direct,
                       const NeededArray& multiple)
   {
-    for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
     {
       const auto tuple = static_cast<vtkIdType>(i);
       for (int band = 0; band < field.Bands; ++band)
       {
-        const std::size_t index = field.CellIndex(band, numbers[i]);
+        const std::size_t index = field.CellIndex(band, number(i));
         field.DirectFluence[index] = direct.Get(tuple, band);
         multiple.Get(tuple, band * Batches, field.MultipleFluence[index]);
       }
     }
   };
   const auto loadFields =
-    [&](const std::vector<std::int64_t>& numbers, const char* directName, const char* multipleName)
+    [&](std::size_t count, auto&& number, const char* directName, const char* multipleName)
   {
-    const auto count = static_cast<vtkIdType>(numbers.size());
+    const auto tuples = static_cast<vtkIdType>(count);
     vtkFieldData& fields = *block.Grid->GetFieldData();
-    load(numbers, {fields, "field array ", block.Name, directName, field.Bands, count},
-      {fields, "field array ", block.Name, multipleName, field.Bands * Batches, count});
+    load(count, number, {fields, "field array ", block.Name, directName, field.Bands, tuples},
+      {fields, "field array ", block.Name, multipleName, field.Bands * Batches, tuples});
   };
-  const std::vector<std::int64_t> cells = NumbersFrom(firstCell, SceneCells(block));
+  const std::size_t cells = SceneCells(block);
+  const auto numberOfCell = [firstCell](std::size_t i) { return firstCell + i; };
   if (block.Refinement.None())
   {
-    load(cells, {*block.Grid, block.Name, "DirectFluence", field.Bands},
+    load(cells, numberOfCell, {*block.Grid, block.Name, "DirectFluence", field.Bands},
       {*block.Grid, block.Name, "MultipleFluence", field.Bands * Batches});
   }
   else
   {
-    loadFields(cells, RefinedDirect, RefinedMultiple);
+    loadFields(cells, numberOfCell, RefinedDirect, RefinedMultiple);
   }
-  const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, cells.size());
+  const std::vector<std::int64_t> later = LaterParts(smoke, firstCell, cells);
   if (!later.empty())
   {
-    loadFields(later, PartDirect, PartMultiple);
+    loadFields(
+      later.size(), [&later](std::size_t i) { return later[i]; }, PartDirect, PartMultiple);
   }
 }
 

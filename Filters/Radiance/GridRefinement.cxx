@@ -50,28 +50,47 @@ double Edge(const SmokeGrid& grid, int axis, int interval)
 /// Smoke of a grid by how thick it is.
 struct ThickCellsOfGrid
 {
-  GridRefinement Refinement;
-  std::size_t Cells = 0, Smoky = 0, Thick = 0, Opaque = 0;
+  /// Largest optical depth of scattering of the thick cells in each interval, along each axis.
+  std::array<std::vector<double>, 3> Deepest;
+  std::size_t Smoky = 0, Thick = 0, Opaque = 0;
 
-  bool Matter() const { return this->IsMuch(this->Thick); }
   bool IsMuch(std::size_t cells) const
   {
     return static_cast<double>(cells) > TolerableThickShare * static_cast<double>(this->Smoky);
   }
-  /// Whether any cell is to be cut.
-  bool Refines() const { return this->Refinement.Cells() > this->Cells; }
+  /// None where few cells are thick, or all of them are thin enough for the aim.
+  /// @param aim optical depth of scattering that cells are to have at most
+  GridRefinement RefinementTo(double aim) const;
 };
 
+GridRefinement ThickCellsOfGrid::RefinementTo(double aim) const
+{
+  GridRefinement refinement;
+  const auto cut = [aim](double depth) { return depth > aim; };
+  if (this->IsMuch(this->Thick) &&
+      std::any_of(this->Deepest.begin(), this->Deepest.end(),
+        [&cut](const auto& depths) { return std::any_of(depths.begin(), depths.end(), cut); }))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const double depth : this->Deepest[axis])
+      {
+        const double parts = std::clamp<double>(std::ceil(depth / aim), 1.0, MostParts);
+        refinement.Parts[axis].push_back(static_cast<int>(parts));
+      }
+    }
+  }
+  return refinement;
+}
+
 /// @param scattering coefficient over the extinction coefficient
-/// @param aim optical depth of scattering that cells are to have at most
-ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double aim)
+ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering)
 {
   ThickCellsOfGrid found;
-  found.Cells = grid.Extinction.size();
   const std::array<int, 3> size = SizeOf(grid);
   for (int axis = 0; axis < 3; ++axis)
   {
-    found.Refinement.Parts[axis].assign(size[axis], 1);
+    found.Deepest[axis].assign(size[axis], 0.0);
   }
   ForEachPlace(size,
     [&](const std::array<int, 3>& place)
@@ -94,9 +113,8 @@ ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering, double
         ++found.Thick;
         for (int axis = 0; axis < 3; ++axis)
         {
-          int& most = found.Refinement.Parts[axis][place[axis]];
-          const double parts = std::min<double>(MostParts, std::ceil(depths[axis] / aim));
-          most = std::max(most, static_cast<int>(parts));
+          double& deepest = found.Deepest[axis][place[axis]];
+          deepest = std::max(deepest, depths[axis]);
         }
       }
     });
@@ -199,39 +217,37 @@ ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
   {
     return result;
   }
-  for (const SmokeGrid& grid : scene.Grids)
-  {
-    CheckGrid(grid);
-  }
   const double scattering =
     std::max(LeastAlbedo, scene.Albedo) *
     *std::max_element(scene.ExtinctionScale.begin(), scene.ExtinctionScale.begin() + scene.Bands);
+  std::vector<ThickCellsOfGrid> grids;
+  for (const SmokeGrid& grid : scene.Grids)
+  {
+    CheckGrid(grid);
+    const ThickCellsOfGrid& own = grids.emplace_back(FindThickCells(grid, scattering));
+    result.Thick += own.IsMuch(own.Thick) ? own.Thick : 0;
+    result.Opaque += own.IsMuch(own.Opaque) ? own.Opaque : 0;
+  }
   for (const Aim& aim : Aims)
   {
-    ThickSmoke found;
-    for (const SmokeGrid& grid : scene.Grids)
+    ThickSmoke found = result;
+    found.Depth = aim.Depth;
+    found.Cells = 0;
+    for (std::size_t i = 0; i < grids.size(); ++i)
     {
-      ThickCellsOfGrid own = FindThickCells(grid, scattering, aim.Depth);
-      found.Thick += own.Matter() ? own.Thick : 0;
-      found.Opaque += own.IsMuch(own.Opaque) ? own.Opaque : 0;
-      const bool refines = own.Matter() && own.Refines();
-      found.Cells += refines ? own.Refinement.Cells() : 0;
-      found.Refinements.push_back(refines ? std::move(own.Refinement) : GridRefinement());
+      GridRefinement& own = found.Refinements[i];
+      own = grids[i].RefinementTo(aim.Depth);
+      found.Cells += own.None() ? 0 : own.Cells();
     }
     if (!found.IsRefined())
     {
       // A coarser aim would not do either.
-      result.Thick = found.Thick;
-      result.Opaque = found.Opaque;
       break;
     }
-    found.Depth = aim.Depth;
     if (static_cast<double>(found.Cells) <= aim.Share * static_cast<double>(most))
     {
       return found;
     }
-    result.Thick = found.Thick;
-    result.Opaque = found.Opaque;
     result.Cells = found.Cells;
   }
   return result;
