@@ -28,8 +28,9 @@ constexpr double UncertainContrast = 0.005;
 /// Standard error that uneven smoke leaves the perceived one above which the plate is divided more
 /// finely.
 constexpr double UnevenContrast = 0.002;
-/// Roughness of the optical depths over a plate above which the veil is told by a ray to each zone,
-/// as long as it is above the light field's tolerance: nine rays tell it to a third of that.
+/// Roughness of the optical depths over a plate, over their mean where that is below one, above
+/// which the veil is told by a ray to each zone, as long as it is above the light field's
+/// tolerance: nine rays tell it to a third of that.
 constexpr double LargestRoughness = 0.03;
 /// Zones of a plate behind uneven smoke above which the veil is not told by a ray to each.
 constexpr std::size_t MostRays = 1024;
@@ -212,9 +213,11 @@ void SignLook::FillFactors()
 void SignLook::MakeVeils()
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
-  // The veil behind rough smoke is as rough, which few rays do not tell. Before a plate without a
-  // pattern its contrast is that of the veil, which falls off right before the plate's rim.
-  const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance);
+  // The veil of rough smoke is as rough, which few rays do not tell; of thin smoke it is
+  // proportional to the depth. Before a plate without a pattern its contrast is that of the veil,
+  // which falls off right before the plate's rim.
+  const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance) *
+                       std::min(1.0, this->Result_.OpticalDepth);
   const bool uneven =
     this->Fine_ || this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) > rough;
   const bool plain = this->Sight_.Across().Count() * this->Sight_.Up().Count() == 1;
@@ -223,7 +226,8 @@ void SignLook::MakeVeils()
     if (this->Sight_.PartlyHidden() || this->Glows_ || plain ||
         (uneven && places.size() <= MostRays))
     {
-      this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places));
+      this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places,
+        this->Plate_, this->Sight_.Across(), this->Sight_.Up(), !this->Sight_.PartlyHidden()));
     }
     else
     {

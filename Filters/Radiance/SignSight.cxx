@@ -383,12 +383,12 @@ void SignSight::AddPart(const Facet& facet, PlatePattern pattern, const PlateBor
       number = part.Zones.size();
       Zone zone{this->Places_.size()};
       zone.At = {zoneOf[i] % columns, zoneOf[i] / columns};
+      part.Zones.push_back(zone);
+      SeenPlace& added = this->Places_.emplace_back();
       for (int axis = 0; axis < 2; ++axis)
       {
-        zone.Size[axis] = borders[axis][zone.At[axis] + 1] - borders[axis][zone.At[axis]];
+        added.Size[axis] = borders[axis][zone.At[axis] + 1] - borders[axis][zone.At[axis]];
       }
-      part.Zones.push_back(zone);
-      this->Places_.emplace_back();
       largest.push_back(0.0);
     }
     part.ZoneOf.back() = number;

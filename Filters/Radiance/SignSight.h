@@ -30,9 +30,8 @@ public:
     std::size_t Cell = 0;
     /// Whether any cell in it reflects.
     bool Reflects = false;
-    /// Column and row among all zones of its part, and its size along the plate's edges, 0 to 1.
+    /// Column and row among all zones of its part.
     std::array<std::size_t, 2> At{};
-    glm::dvec2 Size{0.0};
   };
   /// A plane part of the sign.
   struct Part

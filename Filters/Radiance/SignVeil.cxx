@@ -44,6 +44,17 @@ Lanes VeilOf(const RayLight& light)
   return veil;
 }
 
+/// Distance from a plate along a ray within which smoke glows in the shape of its pattern.
+double GlowReach(
+  const Sign& sign, const PlateColumns& columns, const PlateColumns& rows, const Vec3& direction)
+{
+  // The pattern blurs over a distance of about its period; aslant, rays are as close for longer.
+  const double height =
+    2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
+            rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
+  return height / std::max(LeastSlant, std::abs(glm::dot(direction, sign.Normal)));
+}
+
 } // namespace
 
 std::size_t SignVeil::Gather()
@@ -72,15 +83,8 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   const PlateColumns& rows)
     : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
 {
-  // The pattern blurs over a distance of about its period; aslant, rays are as close for longer.
-  const double height =
-    2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
-            rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
   const auto reachOf = [&](const Vec3& direction)
-  {
-    const double slant = std::abs(glm::dot(direction, sign.Normal));
-    return height / std::max(LeastSlant, slant);
-  };
+  { return GlowReach(sign, columns, rows, direction); };
   for (int j = 0; j < 3; ++j)
   {
     for (int i = 0; i < 3; ++i)
@@ -209,24 +213,62 @@ Lanes PlateVeil::At(std::size_t place) const
   return veil;
 }
 
-ShownVeil::ShownVeil(
-  const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places)
+ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band,
+  const std::vector<SeenPlace>& places, const Sign& sign, const PlateColumns& columns,
+  const PlateColumns& rows, bool whole)
     : SignVeil(view, eye, band, places)
 {
   const double all = std::accumulate(places.begin(), places.end(), 0.0,
     [](double sum, const SeenPlace& place) { return sum + place.Weight; });
+  const bool near = whole && columns.Count() * rows.Count() > 1;
   for (const SeenPlace& place : places)
   {
     const Vec3 to = place.Point - eye;
     const double distance = glm::length(to);
-    this->Ways_.push_back(
-      {{to / distance, distance, place.Weight / all}, this->Trace(to / distance, 0.0, distance)});
+    const Vec3 direction = to / distance;
+    const double reach = near ? GlowReach(sign, columns, rows, direction) : 0.0;
+    const double end = std::max(0.0, distance - reach);
+    this->Ways_.push_back({{direction, end, place.Weight / all}, this->Trace(direction, 0.0, end)});
+    if (near)
+    {
+      this->Near_.push_back(this->MeanCloseTo(place, sign, columns, rows));
+    }
   }
+}
+
+Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign, const PlateColumns& columns,
+  const PlateColumns& rows) const
+{
+  const double ahead = this->Ways_.back().Light.Veil();
+  const std::array<std::size_t, 2> nodes = {
+    columns.Count() > 1 ? Nodes2.size() : 1, rows.Count() > 1 ? Nodes2.size() : 1};
+  const auto nodeOf = [&](std::size_t index, int axis)
+  {
+    const double share = nodes[axis] > 1 ? Nodes2[index] - 0.5 : 0.0;
+    return place.OnPlate[axis] + share * place.Size[axis];
+  };
+  Lanes mean;
+  for (std::size_t node = 0; node < nodes[0] * nodes[1]; ++node)
+  {
+    const Vec3 to =
+      OnPlate(sign, nodeOf(node % nodes[0], 0), nodeOf(node / nodes[0], 1)) - this->Eye_;
+    const double distance = glm::length(to);
+    const Vec3 direction = to / distance;
+    const double begin = std::max(0.0, distance - GlowReach(sign, columns, rows, direction));
+    Add(mean, VeilOf(this->Trace(direction, begin, distance, ahead)),
+      1.0F / static_cast<float>(nodes[0] * nodes[1]));
+  }
+  return mean;
 }
 
 Lanes ShownVeil::At(std::size_t place) const
 {
-  return VeilOf(this->Ways_[place].Light);
+  Lanes veil = VeilOf(this->Ways_[place].Light);
+  if (!this->Near_.empty())
+  {
+    Add(veil, this->Near_[place], 1.0F);
+  }
+  return veil;
 }
 
 } // namespace smokevis

@@ -13,10 +13,11 @@ namespace smokevis
 {
 
 /// What an eye sees of a part of a plate: the part's middle, on the sign's rectangle and in space,
-/// and its solid angle.
+/// its size along the rectangle's edges, 0 to 1, and its solid angle.
 struct SeenPlace
 {
   glm::dvec2 OnPlate{0.0};
+  glm::dvec2 Size{0.0};
   Vec3 Point{0.0};
   double Weight = 0.0;
 };
@@ -91,13 +92,24 @@ private:
 
 /// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
 /// what hides it would tell of smoke that is not seen, behind rough smoke, and before a plate
-/// without a pattern.
+/// without a pattern. Close to a plate with a pattern that is all in view, the mean over each place
+/// is that of two Gauss points along each edge that the pattern changes along.
 class ShownVeil : public SignVeil
 {
 public:
-  ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places);
+  /// @param whole whether all of the plate is in view
+  ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places,
+    const Sign& sign, const PlateColumns& columns, const PlateColumns& rows, bool whole);
 
   Lanes At(std::size_t place) const override;
+
+private:
+  /// Mean over the last place that a way was looked at to of what is added close to it.
+  Lanes MeanCloseTo(const SeenPlace& place, const Sign& sign, const PlateColumns& columns,
+    const PlateColumns& rows) const;
+
+  /// What is added close to the plate before each place, if that is told by itself.
+  std::vector<Lanes> Near_;
 };
 
 } // namespace smokevis

@@ -22,12 +22,15 @@ ZoneChanges::ZoneChanges(const SignSight& sight, const SignSight::Part& part)
   {
     numberAt(zones[i].At) = i;
   }
+  const auto placeOf = [&](std::size_t zone) -> const SeenPlace&
+  { return sight.Places()[zones[zone].Place]; };
   const auto apart = [&](std::size_t zone, std::size_t next, int axis)
   {
+    const SeenPlace& before = placeOf(zone);
+    const SeenPlace& behind = placeOf(next);
     // Middles of what is seen of two zones may lie closer than they do.
-    return std::max(0.25 * (zones[zone].Size[axis] + zones[next].Size[axis]),
-      sight.Places()[zones[next].Place].OnPlate[axis] -
-        sight.Places()[zones[zone].Place].OnPlate[axis]);
+    return std::max(
+      0.25 * (before.Size[axis] + behind.Size[axis]), behind.OnPlate[axis] - before.OnPlate[axis]);
   };
   for (std::size_t i = 0; i < zones.size(); ++i)
   {
@@ -50,7 +53,7 @@ ZoneChanges::ZoneChanges(const SignSight& sight, const SignSight::Part& part)
         }
         if (row[0] && row[1] && row[2])
         {
-          const double own = zones[i].Size[axis];
+          const double own = placeOf(i).Size[axis];
           this->Rows_[i][axis] = Row{{*row[0], *row[1], *row[2]},
             {apart(*row[0], *row[1], axis) / own, apart(*row[1], *row[2], axis) / own}};
         }

@@ -1,7 +1,7 @@
 // Floor maps: run time and memory against the error of contrast, beside the reference integrator.
 #include "BenchmarkCases.h"
 
-#include "ReferenceContrast.h"
+#include "ReferenceSign.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,9 +99,9 @@ std::vector<float> PathTrace(const Scene& scene, const FloorMapOptions& places,
     [&](std::size_t i)
     {
       const std::size_t view = views[i];
-      contrast[view] = static_cast<float>(ReferenceContrast(
-        scene, places.EyeAt(view / reference.Signs), samples, view % reference.Signs)
-                                            .Mean);
+      contrast[view] = static_cast<float>(
+        MeasureByPaths(scene, places.EyeAt(view / reference.Signs), samples, view % reference.Signs)
+          .Contrast.Mean);
     });
   return contrast;
 }

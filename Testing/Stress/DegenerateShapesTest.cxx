@@ -1,6 +1,7 @@
 // Broken and awkward shapes: duplicate, flat, sliver and inside-out triangles, plates in and half
 // inside walls, meshes that overlap or nest.
 #include "Errors.h"
+#include "RandomScenes.h"
 #include "StressScenes.h"
 #include "TestReport.h"
 
@@ -255,7 +256,7 @@ TEST(DegenerateShapes, FarOutsideOfARoom)
   constexpr double tolerance = 0.01;
   for (const std::uint64_t seed : {2U, 3U, 6U})
   {
-    const scenes::RandomRoom room = scenes::MakeRandomRoom(seed);
+    const scenes::RandomScene room = scenes::MakeRandomRoom(seed);
     report::Head("Random room " + std::to_string(seed) + ", a triangle 30 and 100 m off");
     const auto measure = [&room](const SceneDescription& scene)
     { return MeasureSign(*Solved(scene, tolerance).TheView, 0, room.Eye, Observer{0.0}); };

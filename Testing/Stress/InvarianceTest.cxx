@@ -1,4 +1,5 @@
 // What must not matter: the unit of length, where the origin is, and how a scene is turned.
+#include "RandomScenes.h"
 #include "StressScenes.h"
 #include "TestReport.h"
 

@@ -1,4 +1,5 @@
 // Twice scattered light right before a sign, in cells as large as its bars, against finer cells.
+#include "RandomScenes.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 
@@ -44,7 +45,7 @@ SmokeGrid Halved(const SmokeGrid& grid)
 
 /// Veil of multiply scattered light over the last cell before a sign's first bar [cd/m2].
 /// @param reach length of that cell along the ray [m]
-double LastVeil(const scenes::RandomRoom& room, double reach)
+double LastVeil(const scenes::RandomScene& room, double reach)
 {
   const Solved solved(room.Description, 0.03);
   const Vec3 way = solved.TheScene->Lights().CellCentre(0) - room.Eye;
@@ -58,7 +59,7 @@ double LastVeil(const scenes::RandomRoom& room, double reach)
 TEST(NearMultiple, VeilRightBeforeABar)
 {
   constexpr double Reach = 0.184;
-  scenes::RandomRoom room = scenes::MakeRandomRoom(21);
+  scenes::RandomScene room = scenes::MakeRandomRoom(21);
   const double coarse = LastVeil(room, Reach);
   room.Description.Grids[0] = Halved(room.Description.Grids[0]);
   EXPECT_NEAR(coarse / LastVeil(room, Reach), 1.0, 0.12);

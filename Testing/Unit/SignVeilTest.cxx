@@ -84,7 +84,8 @@ double LargestError(const View& view, const Vec3& eye)
       const double across = glm::mix(bars.Ends[bar], bars.Ends[bar + 1], (i % 4 + 0.5) / 4.0);
       const double along = (i + 0.5) / Places;
       const glm::dvec2 at(stand ? across : along, stand ? along : across);
-      places.push_back({at, OnPlate(sign, at.x, at.y), 1.0 / (Bars * Places)});
+      const SeenPlace place{at, glm::dvec2(0.0), OnPlate(sign, at.x, at.y), 1.0 / (Bars * Places)};
+      places.push_back(place);
     }
   }
   const PlateVeil veil(view, eye, 0, places, sign, columns, rows);
@@ -150,10 +151,10 @@ double ErrorUnderLamp(double widthOverHeight, double heights)
   for (int i = 0; i < 9; ++i)
   {
     const glm::dvec2 at(Nodes3[i % 3], Nodes3[i / 3]);
-    places.push_back({at, OnPlate(sign, at.x, at.y), 1.0 / 9.0});
+    places.push_back({at, glm::dvec2(0.0), OnPlate(sign, at.x, at.y), 1.0 / 9.0});
   }
   const PlateVeil told(view, eye, 0, places, sign, columns, rows);
-  const ShownVeil seen(view, eye, 0, places);
+  const ShownVeil seen(view, eye, 0, places, sign, columns, rows, true);
   double largest = 0.0;
   for (std::size_t place = 0; place < places.size(); ++place)
   {

@@ -1,4 +1,5 @@
 // Conservation of energy and reciprocity.
+#include "RandomScenes.h"
 #include "ReferenceIntegrator.h"
 #include "Sampler.h"
 #include "SceneLibrary.h"

@@ -1,6 +1,6 @@
 // Walls that lie askew to the cells of the smoke, which they cut.
 #include "Contrast.h"
-#include "ReferenceContrast.h"
+#include "ReferenceSign.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -118,7 +118,7 @@ void CheckScene(const SceneDescription& scene, const Vec3& eye, const std::vecto
   {
     checkVeil("aside " + std::to_string(i), others[i]);
   }
-  const Estimate contrast = ReferenceContrast(*solved.TheScene, eye, samples / 20);
+  const Estimate contrast = MeasureByPaths(*solved.TheScene, eye, samples / 20).Contrast;
   const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
   report::Absolute("contrast", contrast.Mean, sign.Contrast, 0.005,
     std::hypot(contrast.StandardError, sign.ContrastError));

@@ -1,6 +1,7 @@
 // Lamps right beside signs, and in smoke as thick as its cells: what the README's limits say.
 #include "Contrast.h"
-#include "ReferenceContrast.h"
+#include "RandomScenes.h"
+#include "ReferenceSign.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -39,7 +40,7 @@ TEST(LampNearby, AboveASignThatReflects)
       const Solved solved(scene, 0.05);
       const Vec3 eye(1, 2, 1.7);
       const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
-      const Estimate reference = ReferenceContrast(*solved.TheScene, eye, 2000);
+      const Estimate reference = MeasureByPaths(*solved.TheScene, eye, 2000).Contrast;
       report::Absolute("walls " + std::to_string(reflectance).substr(0, 3) + ", albedo " +
                          std::to_string(albedo).substr(0, 3),
         reference.Mean, sign.Contrast, albedo > 0.0 ? 0.012 : 0.005,

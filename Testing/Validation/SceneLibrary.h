@@ -99,16 +99,6 @@ struct Slab
 };
 Slab MakeSlab(double opticalDepth, double albedo, int layers);
 
-/// A room with noisy smoke, one or two lamps, a block and a sign, all drawn at random.
-struct RandomRoom
-{
-  SceneDescription Description;
-  Vec3 Eye;
-};
-RandomRoom MakeRandomRoom(std::uint64_t seed);
-/// An open field of uniform or layered smoke over a floor, with a box, a sign and up to nine lamps.
-RandomRoom MakeRandomField(std::uint64_t seed);
-
 /// Multiplies all lengths by a factor and divides extinctions by it.
 SceneDescription Scaled(SceneDescription description, double factor);
 /// Moves everything.

@@ -31,7 +31,8 @@ SignByRays MeasureByRays(const View& view, const Vec3& eye, const glm::ivec2& st
     }
   }
   const double mean = all[1] / all[0];
-  return {std::sqrt(all[2] / all[0] - mean * mean) / mean, unlit[1] / unlit[0]};
+  const glm::dvec3 lit = all - unlit;
+  return {std::sqrt(all[2] / all[0] - mean * mean) / mean, lit[1] / lit[0], unlit[1] / unlit[0]};
 }
 
 } // namespace smokevis

@@ -9,7 +9,9 @@ namespace smokevis
 struct SignByRays
 {
   double Contrast = 0.0;
-  /// Mean luminance of cells that emit no light [cd/m2]; not a number where there are none.
+  /// Mean luminance of cells that emit light, and of those that do not [cd/m2]; not numbers where
+  /// there are none.
+  double LitLuminance = 0.0;
   double UnlitLuminance = 0.0;
 };
 

@@ -1,4 +1,4 @@
-#include "ReferenceContrast.h"
+#include "ReferenceSign.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,18 +6,41 @@
 namespace smokevis
 {
 
+namespace
+{
+
+/// Sums over points of a sign, which count by their solid angle.
+struct PartSums
+{
+  double Weight = 0.0;
+  /// Of the luminance and its square, and of the square of its standard error.
+  double Sum = 0.0;
+  double Square = 0.0;
+  double Noise = 0.0;
+
+  Estimate Mean() const
+  {
+    return {this->Sum / this->Weight, std::sqrt(this->Noise) / this->Weight};
+  }
+  PartSums operator+(const PartSums& other) const
+  {
+    return {this->Weight + other.Weight, this->Sum + other.Sum, this->Square + other.Square,
+      this->Noise + other.Noise};
+  }
+};
+
+} // namespace
+
 //--------------------------------------------------------------------------------------------------
-Estimate ReferenceContrast(
+ReferenceSign MeasureByPaths(
   const Scene& scene, const Vec3& eye, std::uint64_t samples, std::size_t sign)
 {
   const ReferenceIntegrator reference(scene);
   const std::vector<EmitterCell>& cells = scene.Lights().Cells();
   constexpr int Rows = 9;
   constexpr int Columns = 4;
-  double sum = 0.0;
-  double square = 0.0;
-  double noise = 0.0;
-  double weight = 0.0;
+  PartSums lit;
+  PartSums unlit;
   int points = 0;
   for (const std::size_t cell : scene.Lights().Signs()[sign].Cells)
   {
@@ -42,18 +65,20 @@ Estimate ReferenceContrast(
       const Vec3 way = place(point, 0.5, 0.5) - eye;
       const double solid =
         std::abs(glm::dot(glm::cross(along, up), way)) / std::pow(glm::length(way), 3.0);
-      weight += solid;
-      sum += solid * seen.Radiance.Mean;
-      square += solid * (seen.Square.Mean + seen.Added.Mean * seen.Added.Mean - added * added);
-      noise += solid * solid * seen.Radiance.StandardError * seen.Radiance.StandardError;
+      PartSums& part = cells[cell].Luminance[0] > 0.0 ? lit : unlit;
+      part.Weight += solid;
+      part.Sum += solid * seen.Radiance.Mean;
+      part.Square += solid * (seen.Square.Mean + seen.Added.Mean * seen.Added.Mean - added * added);
+      part.Noise += solid * solid * seen.Radiance.StandardError * seen.Radiance.StandardError;
     }
   }
-  const double mean = sum / weight;
-  const double spread = std::sqrt(std::max(0.0, square / weight - mean * mean));
+  const PartSums all = lit + unlit;
+  const Estimate mean = all.Mean();
+  const double spread = std::sqrt(std::max(0.0, all.Square / all.Weight - mean.Mean * mean.Mean));
   // The contrast's error is that of the mean, and of the spread, both of independent points.
-  const double meanError = std::sqrt(noise) / weight;
-  const double contrast = spread / mean;
-  return {contrast, meanError / mean * std::hypot(1.0, contrast)};
+  const double contrast = spread / mean.Mean;
+  return {{contrast, mean.StandardError / mean.Mean * std::hypot(1.0, contrast)}, lit.Mean(),
+    unlit.Mean()};
 }
 
 } // namespace smokevis
