@@ -299,7 +299,7 @@ void vtkSmokeLightField::Refine(Task& task) const
     why << "light varies inside them: their grids are solved in " << thick.Cells
         << " cells, of at most " << thick.Depth << " scattering depths or a twentieth of their own";
   }
-  else if (thick.Cells > 0)
+  else if (thick.Thick > 0)
   {
     why << thick.Thick << " thick cells would take " << thick.Cells
         << " cells at least, more than MaximumRefinedCells";
@@ -317,6 +317,23 @@ void vtkSmokeLightField::Refine(Task& task) const
   }
   task.Report.push_back({"thick smoke cells refined",
     thick.IsRefined() ? static_cast<double>(thick.Thick) : 0.0, why.str()});
+  if (thick.Jutting > 0)
+  {
+    const bool refined = thick.IsRefined() && std::isfinite(thick.JuttingDepth);
+    std::ostringstream whyJutting;
+    whyJutting << "light comes into " << thick.Jutting << " cells from several sides: ";
+    if (refined)
+    {
+      whyJutting << "they are solved in cells of at most " << thick.JuttingDepth
+                 << " scattering depths or a twentieth of their own";
+    }
+    else
+    {
+      whyJutting << "finer cells would be more than an eighth of MaximumRefinedCells";
+    }
+    task.Report.push_back({"cells that jut out of clouds refined",
+      refined ? static_cast<double>(thick.Jutting) : 0.0, whyJutting.str()});
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace smokevis
 {
@@ -19,16 +21,22 @@ namespace
 constexpr double ThickDepth = 0.75;
 constexpr double OpaqueDepth = 15.0;
 constexpr double TraceDepth = 0.01 * ThickDepth;
+/// The first of these for cells that jut out of a cloud: so many axes along which smoke beside them
+/// is thinner than so large a share of theirs.
+constexpr double JuttingDepth = 0.4;
+constexpr int JuttingAxes = 2;
+constexpr float ThinnerShare = 0.5F;
 /// Share of a depth that is rounding, of extinctions in single precision and of nodes far off.
 constexpr double Rounding = 1e-4;
 /// Depths that are aimed at, best first, and the share of the cells that there may be which each
-/// may take.
+/// may take. Cells that jut out are refined where that is cheap.
 struct Aim
 {
-  double Depth, Share;
+  double Depth, JuttingDepth, Share;
 };
-constexpr std::array<Aim, 5> Aims = {
-  {{0.5, 0.125}, {0.75, 1.0}, {1.0, 1.0}, {1.5, 1.0}, {2.0, 1.0}}};
+constexpr double Any = std::numeric_limits<double>::infinity();
+constexpr std::array<Aim, 7> Aims = {{{0.5, 0.25, 0.125}, {0.5, 0.4, 0.125}, {0.5, Any, 0.125},
+  {0.75, Any, 1.0}, {1.0, Any, 1.0}, {1.5, Any, 1.0}, {2.0, Any, 1.0}}};
 /// Most parts that a cell is cut into along an edge.
 constexpr int MostParts = 20;
 /// Soot of a lower albedo counts as if it had this one: light falls off in it all the same.
@@ -47,51 +55,100 @@ double Edge(const SmokeGrid& grid, int axis, int interval)
   return grid.Nodes[axis][interval + 1] - grid.Nodes[axis][interval];
 }
 
-/// Smoke of a grid by how thick it is.
-struct ThickCellsOfGrid
+/// Cells that are too thick.
+struct CellsToCut
 {
-  /// Largest optical depth of scattering of the thick cells in each interval, along each axis.
+  std::size_t Cells = 0;
+  /// Their largest optical depth of scattering in each interval, along each axis.
   std::array<std::vector<double>, 3> Deepest;
-  std::size_t Smoky = 0, Thick = 0, Opaque = 0;
 
-  bool IsMuch(std::size_t cells) const
-  {
-    return static_cast<double>(cells) > TolerableThickShare * static_cast<double>(this->Smoky);
-  }
-  /// None where few cells are thick, or all of them are thin enough for the aim.
-  /// @param aim optical depth of scattering that cells are to have at most
-  GridRefinement RefinementTo(double aim) const;
-};
-
-GridRefinement ThickCellsOfGrid::RefinementTo(double aim) const
-{
-  GridRefinement refinement;
-  const auto cut = [aim](double depth) { return depth > aim; };
-  if (this->IsMuch(this->Thick) &&
-      std::any_of(this->Deepest.begin(), this->Deepest.end(),
-        [&cut](const auto& depths) { return std::any_of(depths.begin(), depths.end(), cut); }))
+  explicit CellsToCut(const std::array<int, 3>& size)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      for (const double depth : this->Deepest[axis])
-      {
-        const double parts = std::clamp<double>(std::ceil(depth / aim), 1.0, MostParts);
-        refinement.Parts[axis].push_back(static_cast<int>(parts));
-      }
+      this->Deepest[axis].assign(size[axis], 0.0);
     }
   }
-  return refinement;
+
+  void Add(const std::array<int, 3>& place, const std::array<double, 3>& depths)
+  {
+    ++this->Cells;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      double& deepest = this->Deepest[axis][place[axis]];
+      deepest = std::max(deepest, depths[axis]);
+    }
+  }
+};
+
+/// Smoke of a grid by how thick it is.
+struct SmokeOfGrid
+{
+  CellsToCut Thick, Jutting;
+  std::size_t Smoky = 0, Opaque = 0;
+
+  explicit SmokeOfGrid(const std::array<int, 3>& size) : Thick(size), Jutting(size) {}
+
+  /// So many cells, or none where they are few.
+  std::size_t Much(std::size_t cells) const
+  {
+    return static_cast<double>(cells) > TolerableThickShare * static_cast<double>(this->Smoky)
+             ? cells
+             : 0;
+  }
+  /// None where few cells are thick, or all of them are thin enough for the aim.
+  GridRefinement RefinementTo(const Aim& aim) const;
+};
+
+GridRefinement SmokeOfGrid::RefinementTo(const Aim& aim) const
+{
+  GridRefinement refinement;
+  bool whole = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t interval = 0; interval < this->Thick.Deepest[axis].size(); ++interval)
+    {
+      double parts = 1.0;
+      for (const auto& [cells, depth] :
+        {std::pair(&this->Thick, aim.Depth), {&this->Jutting, aim.JuttingDepth}})
+      {
+        if (this->Much(cells->Cells) > 0)
+        {
+          parts = std::max(parts, std::ceil(cells->Deepest[axis][interval] / depth));
+        }
+      }
+      refinement.Parts[axis].push_back(static_cast<int>(std::min<double>(parts, MostParts)));
+      whole = whole && parts == 1.0;
+    }
+  }
+  return whole ? GridRefinement() : refinement;
+}
+
+/// Whether light comes into a cell of a cloud from clearer air on several sides: it does not fall
+/// off evenly there, and less deep inside.
+bool JutsOut(const SmokeGrid& grid, const std::array<int, 3>& size, const std::array<int, 3>& place)
+{
+  const float thinner = ThinnerShare * grid.Extinction[PlaceNumber(size, place)];
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto thinAt = [&](int step)
+    {
+      std::array<int, 3> beside = place;
+      beside[axis] += step;
+      return beside[axis] >= 0 && beside[axis] < size[axis] &&
+             grid.Extinction[PlaceNumber(size, beside)] < thinner;
+    };
+    axes += thinAt(-1) || thinAt(1) ? 1 : 0;
+  }
+  return axes >= JuttingAxes;
 }
 
 /// @param scattering coefficient over the extinction coefficient
-ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering)
+SmokeOfGrid LookAtSmoke(const SmokeGrid& grid, double scattering)
 {
-  ThickCellsOfGrid found;
   const std::array<int, 3> size = SizeOf(grid);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    found.Deepest[axis].assign(size[axis], 0.0);
-  }
+  SmokeOfGrid found(size);
   ForEachPlace(size,
     [&](const std::array<int, 3>& place)
     {
@@ -107,15 +164,15 @@ ThickCellsOfGrid FindThickCells(const SmokeGrid& grid, double scattering)
       if (*shortest > OpaqueDepth)
       {
         ++found.Opaque;
+        return;
       }
-      else if (*longest > ThickDepth)
+      if (*longest > ThickDepth)
       {
-        ++found.Thick;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          double& deepest = found.Deepest[axis][place[axis]];
-          deepest = std::max(deepest, depths[axis]);
-        }
+        found.Thick.Add(place, depths);
+      }
+      if (*longest > JuttingDepth && JutsOut(grid, size, place))
+      {
+        found.Jutting.Add(place, depths);
       }
     });
   return found;
@@ -220,23 +277,25 @@ ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
   const double scattering =
     std::max(LeastAlbedo, scene.Albedo) *
     *std::max_element(scene.ExtinctionScale.begin(), scene.ExtinctionScale.begin() + scene.Bands);
-  std::vector<ThickCellsOfGrid> grids;
+  std::vector<SmokeOfGrid> grids;
   for (const SmokeGrid& grid : scene.Grids)
   {
     CheckGrid(grid);
-    const ThickCellsOfGrid& own = grids.emplace_back(FindThickCells(grid, scattering));
-    result.Thick += own.IsMuch(own.Thick) ? own.Thick : 0;
-    result.Opaque += own.IsMuch(own.Opaque) ? own.Opaque : 0;
+    const SmokeOfGrid& own = grids.emplace_back(LookAtSmoke(grid, scattering));
+    result.Thick += own.Much(own.Thick.Cells);
+    result.Jutting += own.Much(own.Jutting.Cells);
+    result.Opaque += own.Much(own.Opaque);
   }
   for (const Aim& aim : Aims)
   {
     ThickSmoke found = result;
     found.Depth = aim.Depth;
+    found.JuttingDepth = aim.JuttingDepth;
     found.Cells = 0;
     for (std::size_t i = 0; i < grids.size(); ++i)
     {
       GridRefinement& own = found.Refinements[i];
-      own = grids[i].RefinementTo(aim.Depth);
+      own = grids[i].RefinementTo(aim);
       found.Cells += own.None() ? 0 : own.Cells();
     }
     if (!found.IsRefined())

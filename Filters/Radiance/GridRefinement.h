@@ -40,14 +40,15 @@ struct ThickSmoke
 {
   /// Of each grid; all none where nothing is to be refined.
   std::vector<GridRefinement> Refinements;
-  /// Cells that are too thick, and those that are next to opaque, in grids where more than a
-  /// tolerable share is.
-  std::size_t Thick = 0, Opaque = 0;
+  /// Cells that are too thick, those that jut out of a cloud and are too thick for that, and those
+  /// that are next to opaque, in grids where more than a tolerable share is.
+  std::size_t Thick = 0, Jutting = 0, Opaque = 0;
   /// Cells that the grids with thick ones are to have; where that would be too many, what the
   /// coarsest refinement would take.
   std::size_t Cells = 0;
-  /// Optical depth of scattering along the edges of these, where twenty parts of a cell do for it.
-  double Depth = 0.0;
+  /// Optical depth of scattering along the edges of these, where twenty parts of a cell do for it;
+  /// of cells that jut out, infinite where they were left.
+  double Depth = 0.0, JuttingDepth = 0.0;
 
   bool IsRefined() const;
 };
@@ -58,7 +59,11 @@ struct ThickSmoke
 /// (`ThickSmoke.DarkBarsInADuct`). Cells that scatter more than three quarters of a depth become
 /// cells of half of one where that takes an eighth of the cells that there may be at most, and
 /// otherwise of three quarters, one, one and a half or two, or a twentieth of their own. Soot
-/// counts as if it scattered four fifths: what little it sends on is the veil. Cells that scatter
+/// counts as if it scattered four fifths: what little it sends on is the veil. Cells that jut out
+/// of a cloud, with smoke of less than half as much extinction beside them along two axes or three,
+/// are lit from several sides and fall off in no one direction: those that scatter more than 0.4
+/// depths become cells of 0.25, or else of 0.4, where that takes an eighth of all cells at most
+/// (`RandomClouds.DarkBarsInCoarseCells`). Cells that scatter
 /// more than fifteen along their shortest edge are left: no sign is seen through one, and the light
 /// that gets through several comes out many times too bright. Throws Error for grids that are not
 /// usable.

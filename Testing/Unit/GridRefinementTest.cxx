@@ -147,12 +147,13 @@ TEST(GridRefinement, LeavesTheFewCellsOfAFlame)
     scene.Grids[0].Extinction.begin() + 60, scene.Grids[0].Extinction.begin() + 155, 1e-30F);
   const ThickSmoke thick = FindThickSmoke(scene, Plenty);
   EXPECT_EQ(thick.Thick, 2U);
-  EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{8, 8}));
+  EXPECT_EQ(thick.Jutting, 2U);
+  EXPECT_EQ(thick.Refinements[0].Parts[2], (std::vector<int>{16, 16}));
   std::vector<int> column(10, 1);
-  column[5] = 8;
+  column[5] = 16;
   EXPECT_EQ(thick.Refinements[0].Parts[0], column);
   EXPECT_TRUE(thick.Refinements[1].None());
-  EXPECT_EQ(thick.Cells, 17U * 17U * 16U);
+  EXPECT_EQ(thick.Cells, 25U * 25U * 32U);
 }
 
 // The finest that there is room for. The cells of thin grids take none of it.
@@ -180,6 +181,54 @@ TEST(GridRefinement, TakesNoMoreCellsThanItMay)
   EXPECT_FALSE(whole.IsRefined());
   EXPECT_EQ(whole.Thick, 8U);
   EXPECT_EQ(whole.Cells, 64U);
+}
+
+/// A box of thicker smoke in the middle of thin smoke, in cells of a metre.
+SceneDescription CloudInThinSmoke(int cells, int cloud, double extinction)
+{
+  SceneDescription scene;
+  scene.Albedo = 1.0;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), Vec3(cells), {cells, cells, cells}, 0.05)};
+  const auto inside = [&](int place) { return std::abs(2 * place + 1 - cells) <= cloud; };
+  for (int i = 0; i < cells * cells * cells; ++i)
+  {
+    if (inside(i % cells) && inside(i / cells % cells) && inside(i / (cells * cells)))
+    {
+      scene.Grids[0].Extinction[i] = static_cast<float>(extinction);
+    }
+  }
+  return scene;
+}
+
+// Along the edges and at the corners of a cloud cells are thick sooner, as long as that is cheap;
+// layers have no such cells.
+TEST(GridRefinement, CutsWhatJutsOut)
+{
+  const SceneDescription scene = CloudInThinSmoke(10, 4, 0.7);
+  const ThickSmoke thick = FindThickSmoke(scene, Plenty);
+  EXPECT_EQ(thick.Thick, 0U);
+  EXPECT_EQ(thick.Jutting, 8U + 12U * 2U);
+  EXPECT_EQ(thick.JuttingDepth, 0.25);
+  EXPECT_EQ(thick.Refinements[0].Parts[0], (std::vector<int>{1, 1, 1, 3, 3, 3, 3, 1, 1, 1}));
+  EXPECT_EQ(thick.Cells, 18U * 18U * 18U);
+  // Coarser, and not at all, where there is room for fewer cells.
+  const ThickSmoke coarser = FindThickSmoke(scene, 8 * 18 * 18 * 18 - 1);
+  EXPECT_EQ(coarser.JuttingDepth, 0.4);
+  EXPECT_EQ(coarser.Cells, 14U * 14U * 14U);
+  const ThickSmoke left = FindThickSmoke(scene, 8 * 14 * 14 * 14 - 1);
+  EXPECT_FALSE(left.IsRefined());
+  EXPECT_EQ(left.Jutting, 32U);
+  EXPECT_FALSE(FindThickSmoke(CloudInThinSmoke(10, 4, 0.39), Plenty).IsRefined());
+  // Few of them in much smoke, and the border of a layer.
+  EXPECT_EQ(FindThickSmoke(CloudInThinSmoke(16, 4, 0.7), Plenty).Jutting, 0U);
+  SceneDescription layer = CloudInThinSmoke(4, 0, 0.0);
+  std::fill(layer.Grids[0].Extinction.begin() + 32, layer.Grids[0].Extinction.end(), 0.7F);
+  EXPECT_EQ(FindThickSmoke(layer, Plenty).Jutting, 0U);
+  // What is thick is cut all the same, where what juts out is not.
+  const SceneDescription both = CloudInThinSmoke(10, 4, 1.0);
+  EXPECT_EQ(FindThickSmoke(both, Plenty).Refinements[0].Parts[1][4], 4);
+  const ThickSmoke alone = FindThickSmoke(both, 8 * 16 * 16 * 16);
+  EXPECT_EQ(alone.Refinements[0].Parts[1][4], 2);
 }
 
 // Of two grids the finer one counts where they overlap, and goes on to when the other one is
