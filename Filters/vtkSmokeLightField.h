@@ -179,7 +179,7 @@ public:
    * cells: of half a depth where that takes an eighth of this number at most, otherwise of 0.75, 1,
    * 1.5 or 2, or of a twentieth of their own. Cells of more than fifteen along their shortest
    * edge stay. Where more than a hundredth juts out of clouds, with thinner smoke beside along two
-   * axes or three, and scatters more than 0.4, these become cells of 0.25 or 0.4 if that takes an
+   * axes or three, and scatters more than 0.3, these become cells of 0.25 or 0.4 if that takes an
    * eighth of this number at most. The output keeps the cells of the input. 0: none are refined.
    * Default: 500000.
    */

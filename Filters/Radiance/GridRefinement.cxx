@@ -23,7 +23,7 @@ constexpr double OpaqueDepth = 15.0;
 constexpr double TraceDepth = 0.01 * ThickDepth;
 /// The first of these for cells that jut out of a cloud: so many axes along which smoke beside them
 /// is thinner than so large a share of theirs.
-constexpr double JuttingDepth = 0.4;
+constexpr double JuttingDepth = 0.3;
 constexpr int JuttingAxes = 2;
 constexpr float ThinnerShare = 0.5F;
 /// Share of a depth that is rounding, of extinctions in single precision and of nodes far off.

@@ -218,7 +218,7 @@ TEST(GridRefinement, CutsWhatJutsOut)
   const ThickSmoke left = FindThickSmoke(scene, 8 * 14 * 14 * 14 - 1);
   EXPECT_FALSE(left.IsRefined());
   EXPECT_EQ(left.Jutting, 32U);
-  EXPECT_FALSE(FindThickSmoke(CloudInThinSmoke(10, 4, 0.39), Plenty).IsRefined());
+  EXPECT_FALSE(FindThickSmoke(CloudInThinSmoke(10, 4, 0.29), Plenty).IsRefined());
   // Few of them in much smoke, and the border of a layer.
   EXPECT_EQ(FindThickSmoke(CloudInThinSmoke(16, 4, 0.7), Plenty).Jutting, 0U);
   SceneDescription layer = CloudInThinSmoke(4, 0, 0.0);

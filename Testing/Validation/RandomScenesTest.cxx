@@ -71,12 +71,12 @@ void CheckRoom(const std::string& kind, const scenes::RandomScene& room, std::ui
   const double contrastError =
     std::hypot(contrast.StandardError, sign.ContrastError, sign.ContrastDivisionError);
   report::Absolute("contrast", contrast.Mean, sign.Contrast, 0.005, contrastError);
-  report::Relative(
-    "lit bars", paths.LitLuminance.Mean, sign.LitLuminance, 0.01, paths.LitLuminance.StandardError);
+  report::Relative("lit bars", paths.LitLuminance.Mean, sign.LitLuminance, 0.01,
+    std::hypot(paths.LitLuminance.StandardError, sign.MeanLuminanceError));
   if (cells > 1)
   {
     report::Relative("unlit bars", paths.UnlitLuminance.Mean, sign.UnlitLuminance, 0.01,
-      paths.UnlitLuminance.StandardError);
+      std::hypot(paths.UnlitLuminance.StandardError, sign.MeanLuminanceError));
   }
   EXPECT_LT(std::abs(sign.Contrast - contrast.Mean), 0.005 + 3.0 * contrast.StandardError);
   EXPECT_LT(std::abs(sign.Contrast - contrast.Mean), MostErrors * contrastError + CellShare);
@@ -185,11 +185,11 @@ TEST(RandomClouds, Two)
   }
 }
 
-TEST(RandomClouds, SixtyLong)
+TEST(RandomClouds, TwelveLong)
 {
-  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+  for (std::uint64_t seed = 11; seed <= 22; ++seed)
   {
-    CheckRoom("clouds", scenes::MakeRandomClouds(seed), seed, 50000);
+    CheckRoom("clouds", scenes::MakeRandomClouds(seed), seed, 400000);
   }
 }
 
