@@ -59,13 +59,14 @@ struct ThickSmoke
 /// (`ThickSmoke.DarkBarsInADuct`). Cells that scatter more than three quarters of a depth become
 /// cells of half of one where that takes an eighth of the cells that there may be at most, and
 /// otherwise of three quarters, one, one and a half or two, or a twentieth of their own. Soot
-/// counts as if it scattered four fifths: what little it sends on is the veil. Cells that jut out of
-/// a cloud, with smoke of less than half as much extinction beside them along two axes or three, are
-/// lit from several sides, so that light falls off in no one direction: those that scatter more than
-/// 0.3 depths become cells of 0.25, or else of 0.4, where that takes an eighth of all cells at most
-/// (`RandomClouds.DarkBarsInCoarseCells`). Cells that scatter more than fifteen along their shortest
-/// edge are left: no sign is seen through one, and the light that gets through several comes out
-/// many times too bright. Throws Error for grids that are not usable.
+/// counts as if it scattered four fifths: what little it sends on is the veil. Cells that jut out
+/// of a cloud, with smoke of less than half as much extinction beside them along two axes or three,
+/// are lit from several sides, so that light falls off in no one direction: those that scatter more
+/// than 0.3 depths become cells of 0.25, or else of 0.4, where that takes an eighth of all cells at
+/// most
+/// (`RandomClouds.DarkBarsInCoarseCells`). Cells that scatter more than fifteen along their
+/// shortest edge are left: no sign is seen through one, and the light that gets through several
+/// comes out many times too bright. Throws Error for grids that are not usable.
 /// @param most cells that the grids with thick ones may have in all
 ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most);
 
