@@ -231,15 +231,15 @@ ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band,
     this->Ways_.push_back({{direction, end, place.Weight / all}, this->Trace(direction, 0.0, end)});
     if (near)
     {
-      this->Near_.push_back(this->MeanCloseTo(place, sign, columns, rows));
+      const double ahead = this->Ways_.back().Light.Veil();
+      this->Near_.push_back(this->MeanCloseTo(place, sign, columns, rows, ahead));
     }
   }
 }
 
 Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign, const PlateColumns& columns,
-  const PlateColumns& rows) const
+  const PlateColumns& rows, double ahead) const
 {
-  const double ahead = this->Ways_.back().Light.Veil();
   const std::array<std::size_t, 2> nodes = {
     columns.Count() > 1 ? Nodes2.size() : 1, rows.Count() > 1 ? Nodes2.size() : 1};
   const auto nodeOf = [&](std::size_t index, int axis)

@@ -104,9 +104,10 @@ public:
   Lanes At(std::size_t place) const override;
 
 private:
-  /// Mean over the last place that a way was looked at to of what is added close to it.
+  /// Mean over a place of what is added close to it.
+  /// @param ahead veil of the smoke on the way there [cd/m2]
   Lanes MeanCloseTo(const SeenPlace& place, const Sign& sign, const PlateColumns& columns,
-    const PlateColumns& rows) const;
+    const PlateColumns& rows, double ahead) const;
 
   /// What is added close to the plate before each place, if that is told by itself.
   std::vector<Lanes> Near_;
