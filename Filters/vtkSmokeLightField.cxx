@@ -284,8 +284,8 @@ void vtkSmokeLightField::AddProperties(smokevis::Agreement& agreement) const
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::Refine(Task& task) const
 {
-  const smokevis::ThickSmoke thick =
-    smokevis::FindThickSmoke(task.Description, static_cast<std::size_t>(this->MaximumRefinedCells));
+  const smokevis::ThickSmoke thick = smokevis::FindThickSmoke(
+    task.Description, static_cast<std::size_t>(this->MaximumRefinedCells), this->Tolerance);
   for (std::size_t i = 0; i < thick.Refinements.size(); ++i)
   {
     task.Blocks.Smoke[i].Refinement = thick.Refinements[i];

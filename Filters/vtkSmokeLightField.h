@@ -180,8 +180,8 @@ public:
    * 1.5 or 2, or of a twentieth of their own. Cells of more than fifteen along their shortest
    * edge stay. Where more than a hundredth juts out of clouds, with thinner smoke beside along two
    * axes or three, and scatters more than 0.3, these become cells of 0.25 or 0.4 if that takes an
-   * eighth of this number at most. The output keeps the cells of the input. 0: none are refined.
-   * Default: 500000.
+   * eighth of this number at most and the Tolerance is 0.02 or less. The output keeps the cells of
+   * the input. 0: none are refined. Default: 500000.
    */
   vtkSetMacro(MaximumRefinedCells, int);
   vtkGetMacro(MaximumRefinedCells, int);

@@ -21,10 +21,11 @@ namespace
 constexpr double ThickDepth = 0.75;
 constexpr double OpaqueDepth = 15.0;
 constexpr double TraceDepth = 0.01 * ThickDepth;
-/// The first of these for cells that jut out of a cloud: so many axes along which smoke beside them
-/// is thinner than so large a share of theirs.
+/// The first of these for cells that jut out of a cloud, so many axes along which smoke beside them
+/// is thinner than so large a share of theirs, and the tolerance up to which they count.
 constexpr double JuttingDepth = 0.3;
 constexpr int JuttingAxes = 2;
+constexpr double JuttingTolerance = 0.02;
 constexpr float ThinnerShare = 0.5F;
 /// Share of a depth that is rounding, of extinctions in single precision and of nodes far off.
 constexpr double Rounding = 1e-4;
@@ -145,7 +146,8 @@ bool JutsOut(const SmokeGrid& grid, const std::array<int, 3>& size, const std::a
 }
 
 /// @param scattering coefficient over the extinction coefficient
-SmokeOfGrid LookAtSmoke(const SmokeGrid& grid, double scattering)
+/// @param jutting whether cells that jut out count
+SmokeOfGrid LookAtSmoke(const SmokeGrid& grid, double scattering, bool jutting)
 {
   const std::array<int, 3> size = SizeOf(grid);
   SmokeOfGrid found(size);
@@ -170,7 +172,7 @@ SmokeOfGrid LookAtSmoke(const SmokeGrid& grid, double scattering)
       {
         found.Thick.Add(place, depths);
       }
-      if (*longest > JuttingDepth && JutsOut(grid, size, place))
+      if (jutting && *longest > JuttingDepth && JutsOut(grid, size, place))
       {
         found.Jutting.Add(place, depths);
       }
@@ -266,7 +268,7 @@ bool ThickSmoke::IsRefined() const
     [](const GridRefinement& refinement) { return !refinement.None(); });
 }
 
-ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most, double tolerance)
 {
   ThickSmoke result;
   result.Refinements.resize(scene.Grids.size());
@@ -281,7 +283,8 @@ ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most)
   for (const SmokeGrid& grid : scene.Grids)
   {
     CheckGrid(grid);
-    const SmokeOfGrid& own = grids.emplace_back(LookAtSmoke(grid, scattering));
+    const SmokeOfGrid& own =
+      grids.emplace_back(LookAtSmoke(grid, scattering, tolerance <= JuttingTolerance));
     result.Thick += own.Much(own.Thick.Cells);
     result.Jutting += own.Much(own.Jutting.Cells);
     result.Opaque += own.Much(own.Opaque);

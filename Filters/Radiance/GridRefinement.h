@@ -63,12 +63,12 @@ struct ThickSmoke
 /// of a cloud, with smoke of less than half as much extinction beside them along two axes or three,
 /// are lit from several sides, so that light falls off in no one direction: those that scatter more
 /// than 0.3 depths become cells of 0.25, or else of 0.4, where that takes an eighth of all cells at
-/// most
-/// (`RandomClouds.DarkBarsInCoarseCells`). Cells that scatter more than fifteen along their
-/// shortest edge are left: no sign is seen through one, and the light that gets through several
-/// comes out many times too bright. Throws Error for grids that are not usable.
+/// most (`RandomClouds.DarkBarsInCoarseCells`) and a tolerance of 0.02 or less is asked for: above
+/// it noise is more than this mends, and finer cells have more of it. Cells that scatter more than
+/// fifteen along their shortest edge are left: no sign is seen through one, and the light that gets
+/// through several comes out many times too bright. Throws Error for grids that are not usable.
 /// @param most cells that the grids with thick ones may have in all
-ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most);
+ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most, double tolerance = 0.01);
 
 /// Refines grids, one by one.
 void Refine(std::vector<SmokeGrid>& grids, const std::vector<GridRefinement>& refinements);

@@ -211,6 +211,8 @@ TEST(GridRefinement, CutsWhatJutsOut)
   EXPECT_EQ(thick.JuttingDepth, 0.25);
   EXPECT_EQ(thick.Refinements[0].Parts[0], (std::vector<int>{1, 1, 1, 3, 3, 3, 3, 1, 1, 1}));
   EXPECT_EQ(thick.Cells, 18U * 18U * 18U);
+  EXPECT_EQ(FindThickSmoke(scene, Plenty, 0.02).Jutting, thick.Jutting);
+  EXPECT_EQ(FindThickSmoke(scene, Plenty, 0.03).Jutting, 0U);
   // Coarser, and not at all, where there is room for fewer cells.
   const ThickSmoke coarser = FindThickSmoke(scene, 8 * 18 * 18 * 18 - 1);
   EXPECT_EQ(coarser.JuttingDepth, 0.4);
