@@ -71,14 +71,14 @@ def look(source):
             ("Contrast", "ContrastError", "UnlitLuminance", "MeanLuminance", "OpticalDepthToSign")}
 
 
-def report(data):
+def report(data, what="thick smoke cells refined"):
     names = data.GetFieldData().GetAbstractArray("WorkReportWhat")
     counts = data.GetFieldData().GetArray("WorkReportCount")
     reasons = data.GetFieldData().GetAbstractArray("WorkReportWhy")
     for i in range(names.GetNumberOfValues()):
-        if names.GetValue(i) == "thick smoke cells refined":
+        if names.GetValue(i) == what:
             return counts.GetValue(i), reasons.GetValue(i)
-    raise AssertionError("the work report does not tell")
+    raise AssertionError(f"the work report does not tell of {what}")
 
 
 def block_of(data):
@@ -145,6 +145,22 @@ count, why = report(data)
 assert count == 0 and why.startswith("32 thick cells would take ") and why.endswith("more than MaximumRefinedCells"), why
 assert not block_of(data).GetFieldData().HasArray("Refinement")
 assert abs(look(whole)["UnlitLuminance"] / seen["UnlitLuminance"] - 1.0) > 0.1
+
+# A cube of thicker smoke: its 12 edges and 8 corners jut out, which counts at small tolerances alone.
+JUTTING = "cells that jut out of clouds refined"
+values = numpy.full((5, 5, 20), 0.1)
+values[1:4, 1:4, 8:11] = 2.5
+cloud = image((20, 5, 5), SIZE)
+scenes.add_cells(cloud, "Extinction", values.ravel())
+data = fetch(light_field(cloud, Tolerance=0.02))
+assert report(data, JUTTING)[0] == 20, report(data, JUTTING)
+parts = block_of(data).GetFieldData().GetArray("Refinement")
+assert [parts.GetValue(i) for i in range(20)] == 8 * [1] + 3 * [2] + 9 * [1]
+data = fetch(light_field(cloud, Tolerance=0.02, MaximumRefinedCells=1000))
+count, why = report(data, JUTTING)
+assert count == 0 and why.endswith("more than an eighth of MaximumRefinedCells"), why
+data = fetch(light_field(cloud, Tolerance=0.03))
+assert not block_of(data).GetFieldData().HasArray("Refinement")
 
 # Where a finer mesh lies over a part of a cell, its mean is that of the rest.
 over = image((5, 10, 10), (0.5, 1.0, 1.0), EXTINCTIONS[1], (2.2, 0.0, 0.0))
