@@ -294,10 +294,10 @@ void vtkSmokeLightField::Refine(Task& task) const
   smokevis::Refine(task.Description.Grids, thick.Refinements);
 
   std::ostringstream why;
-  if (thick.IsRefined())
+  if (thick.IsRefined() && thick.Thick > 0)
   {
-    why << "light varies inside them: their grids are solved in " << thick.Cells
-        << " cells, of at most " << thick.Depth << " scattering depths or a twentieth of their own";
+    why << "light varies inside them: grids are solved in " << thick.Cells << " cells, of at most "
+        << thick.Depth << " scattering depths or a twentieth of their own";
   }
   else if (thick.Thick > 0)
   {
@@ -324,8 +324,8 @@ void vtkSmokeLightField::Refine(Task& task) const
     whyJutting << "light comes into " << thick.Jutting << " cells from several sides: ";
     if (refined)
     {
-      whyJutting << "they are solved in cells of at most " << thick.JuttingDepth
-                 << " scattering depths or a twentieth of their own";
+      whyJutting << "grids are solved in " << thick.Cells << " cells, there of at most "
+                 << thick.JuttingDepth << " scattering depths or a twentieth of their own";
     }
     else
     {

@@ -32,6 +32,8 @@ constexpr double UnevenContrast = 0.002;
 /// which the veil is told by a ray to each zone, as long as it is above the light field's
 /// tolerance: nine rays tell it to a third of that.
 constexpr double LargestRoughness = 0.03;
+/// Mean of these depths below which veils are so faint that they are told as at this one.
+constexpr double FaintDepth = 0.1;
 /// Zones of a plate behind uneven smoke above which the veil is not told by a ray to each.
 constexpr std::size_t MostRays = 1024;
 /// Change of optical depth over a zone, along either edge, that is counted at most: beyond it means
@@ -217,7 +219,7 @@ void SignLook::MakeVeils()
   // proportional to the depth. Before a plate without a pattern its contrast is that of the veil,
   // which falls off right before the plate's rim.
   const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance) *
-                       std::min(1.0, this->Result_.OpticalDepth);
+                       std::clamp(this->Result_.OpticalDepth, FaintDepth, 1.0);
   const bool uneven =
     this->Fine_ || this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) > rough;
   const bool plain = this->Sight_.Across().Count() * this->Sight_.Up().Count() == 1;

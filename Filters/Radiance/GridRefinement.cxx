@@ -56,7 +56,7 @@ double Edge(const SmokeGrid& grid, int axis, int interval)
   return grid.Nodes[axis][interval + 1] - grid.Nodes[axis][interval];
 }
 
-/// Cells that are too thick.
+/// Cells that are too thick, or jut out and are too thick for that.
 struct CellsToCut
 {
   std::size_t Cells = 0;
@@ -97,7 +97,7 @@ struct SmokeOfGrid
              ? cells
              : 0;
   }
-  /// None where few cells are thick, or all of them are thin enough for the aim.
+  /// None where few cells are to be cut, or all of them are thin enough for the aim.
   GridRefinement RefinementTo(const Aim& aim) const;
 };
 

@@ -43,7 +43,7 @@ struct ThickSmoke
   /// Cells that are too thick, those that jut out of a cloud and are too thick for that, and those
   /// that are next to opaque, in grids where more than a tolerable share is.
   std::size_t Thick = 0, Jutting = 0, Opaque = 0;
-  /// Cells that the grids with thick ones are to have; where that would be too many, what the
+  /// Cells that the grids with such ones are to have; where that would be too many, what the
   /// coarsest refinement would take.
   std::size_t Cells = 0;
   /// Optical depth of scattering along the edges of these, where twenty parts of a cell do for it;
@@ -66,8 +66,10 @@ struct ThickSmoke
 /// most (`RandomClouds.DarkBarsInCoarseCells`) and a tolerance of 0.02 or less is asked for: above
 /// it noise is more than this mends, and finer cells have more of it. Cells that scatter more than
 /// fifteen along their shortest edge are left: no sign is seen through one, and the light that gets
-/// through several comes out many times too bright. Throws Error for grids that are not usable.
-/// @param most cells that the grids with thick ones may have in all
+/// through several comes out many times too bright. What is blanked has no smoke and counts as
+/// clear air; beyond the borders of a grid nothing is known to jut out. Throws Error for grids that
+/// are not usable.
+/// @param most cells that the grids to be refined may have in all
 ThickSmoke FindThickSmoke(const SceneDescription& scene, std::size_t most, double tolerance = 0.01);
 
 /// Refines grids, one by one.

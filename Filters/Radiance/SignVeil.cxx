@@ -247,11 +247,13 @@ Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign, const Pla
     const double share = nodes[axis] > 1 ? Nodes2[index] - 0.5 : 0.0;
     return place.OnPlate[axis] + share * place.Size[axis];
   };
+  // Facets may lie before or behind the sign's rectangle.
+  const Vec3 off = place.Point - OnPlate(sign, place.OnPlate.x, place.OnPlate.y);
   Lanes mean;
   for (std::size_t node = 0; node < nodes[0] * nodes[1]; ++node)
   {
     const Vec3 to =
-      OnPlate(sign, nodeOf(node % nodes[0], 0), nodeOf(node / nodes[0], 1)) - this->Eye_;
+      OnPlate(sign, nodeOf(node % nodes[0], 0), nodeOf(node / nodes[0], 1)) + off - this->Eye_;
     const double distance = glm::length(to);
     const Vec3 direction = to / distance;
     const double begin = std::max(0.0, distance - GlowReach(sign, columns, rows, direction));

@@ -93,7 +93,8 @@ private:
 /// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
 /// what hides it would tell of smoke that is not seen, behind rough smoke, and before a plate
 /// without a pattern. Close to a plate with a pattern that is all in view, the mean over each place
-/// is that of two Gauss points along each edge that the pattern changes along.
+/// is that of two Gauss points along each edge that the pattern changes along, and stays as the
+/// field has it where the rest is gathered, as before a PlateVeil's.
 class ShownVeil : public SignVeil
 {
 public:

@@ -107,7 +107,7 @@ void RunThick(const Settings& settings)
         SceneDescription description = scene.Make(scene.Edge);
         if (refined)
         {
-          Refine(description.Grids, FindThickSmoke(description, 500000).Refinements);
+          Refine(description.Grids, FindThickSmoke(description, 500000, tolerance).Refinements);
         }
         double seconds = 0.0;
         double dark = 0.0;

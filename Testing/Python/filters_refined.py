@@ -154,6 +154,7 @@ cloud = image((20, 5, 5), SIZE)
 scenes.add_cells(cloud, "Extinction", values.ravel())
 data = fetch(light_field(cloud, Tolerance=0.02))
 assert report(data, JUTTING)[0] == 20, report(data, JUTTING)
+assert report(data) == (0, "no more than a hundredth of a grid's smoke is so thick")
 parts = block_of(data).GetFieldData().GetArray("Refinement")
 assert [parts.GetValue(i) for i in range(20)] == 8 * [1] + 3 * [2] + 9 * [1]
 data = fetch(light_field(cloud, Tolerance=0.02, MaximumRefinedCells=1000))

@@ -123,6 +123,43 @@ TEST(PlateVeil, BeforeBars)
   }
 }
 
+// Places that are as wide as the bars get the mean over these of what glows before them: their
+// middles alone are 1.4 to 3.6 % off in thin smoke.
+TEST(ShownVeil, BeforeWholeBars)
+{
+  for (const double extinction : {0.2, 3.0})
+  {
+    const View view = Solve(extinction, false);
+    const Vec3 eye(4.5, 3.2, 1.6);
+    const EmitterSet& lights = view.TheScene().Lights();
+    const Sign& sign = lights.Signs()[0];
+    const PlateColumns columns(lights, sign, 0);
+    const PlateColumns rows(lights, sign, 1);
+    constexpr int Along = 16;
+    std::vector<SeenPlace> places;
+    for (std::size_t bar = 0; bar < Bars; ++bar)
+    {
+      for (int i = 0; i < Along; ++i)
+      {
+        const glm::dvec2 at(0.5 * (columns.Ends[bar] + columns.Ends[bar + 1]), (i + 0.5) / Along);
+        const glm::dvec2 size(columns.Ends[bar + 1] - columns.Ends[bar], 1.0 / Along);
+        places.push_back({at, size, OnPlate(sign, at.x, at.y), 1.0 / (Bars * Along)});
+      }
+    }
+    const ShownVeil veil(view, eye, 0, places, sign, columns, rows, true);
+    for (std::size_t bar = 0; bar < Bars; ++bar)
+    {
+      double told = 0.0;
+      for (int i = 0; i < Along; ++i)
+      {
+        told += Mean(veil.At(bar * Along + i)) / Along;
+      }
+      const double mean = MeanOverBar(view, sign, columns, rows, bar, eye);
+      EXPECT_NEAR(told / mean, 1.0, 0.007) << extinction << ", " << bar;
+    }
+  }
+}
+
 /// Largest error of the veil before the places that rays are traced to of a plain dark plate, over
 /// the veil there, with a small lamp on the way to it, so many plate heights above the ray to its
 /// middle.

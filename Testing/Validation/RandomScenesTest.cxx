@@ -127,6 +127,7 @@ TEST(RandomClouds, DarkBarsInCoarseCells)
     const ThickSmoke thick = FindThickSmoke(room.Description, 500000);
     ASSERT_TRUE(thick.IsRefined());
     EXPECT_GT(thick.Jutting, 0U);
+    EXPECT_TRUE(std::isfinite(thick.JuttingDepth));
     const Solved solved(Refined(room.Description));
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{0.0});
     const Estimate dark = MeasureByPaths(Scene(room.Description), room.Eye, 5000).UnlitLuminance;
@@ -150,6 +151,7 @@ TEST(RandomClouds, DarkBars)
     ASSERT_EQ(sign.Rays, 0U);
     const SignByRays rays = MeasureByRays(*solved.TheView, room.Eye, {20, 60});
     EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.01) << seed;
+    EXPECT_NEAR(sign.LitLuminance / rays.LitLuminance, 1.0, 0.005) << seed;
     EXPECT_NEAR(sign.Contrast, rays.Contrast, 0.001) << seed;
   }
 }

@@ -18,6 +18,7 @@ using namespace smokevis;
 
 /// As many cells as the filter refines smoke to, if it is not told otherwise.
 constexpr std::size_t Most = 500000;
+constexpr double SolvedTo = 0.02;
 
 // As they come the bars are 0.48 to 1.7 times as bright as they are. Of smoke of a mean free path
 // as wide as the duct, two cells are left across it, and the bars 3 to 3.5 % too dark.
@@ -40,10 +41,10 @@ TEST(ThickSmoke, DarkBarsInADuct)
       SceneDescription scene = scenes::Tunnel(extinction, albedo);
       scene.Grids = {
         scenes::UniformSmoke(Vec3(0.0), {4, 1, 1}, {4 * across, across, across}, extinction)};
-      const ThickSmoke thick = FindThickSmoke(scene, Most);
+      const ThickSmoke thick = FindThickSmoke(scene, Most, SolvedTo);
       ASSERT_TRUE(thick.IsRefined());
       Refine(scene.Grids, thick.Refinements);
-      const Solved solved(scene, 0.02);
+      const Solved solved(scene, SolvedTo);
       const SignMeasurement sign =
         MeasureSign(*solved.TheView, 0, scenes::TunnelEye, Observer{0.0});
       report::Relative(table.Text(row, "name") + ", of " + std::to_string(depth).substr(0, 4),
@@ -74,10 +75,10 @@ TEST(ThickSmoke, RoomInCellsOfFourMeanFreePaths)
       scenes::Plate({1.0, 1.0, 1.99}, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, 100.0, 0.0));
     const Scene coarse(scene);
     const ReferenceIntegrator reference(coarse);
-    const ThickSmoke thick = FindThickSmoke(scene, Most);
+    const ThickSmoke thick = FindThickSmoke(scene, Most, SolvedTo);
     ASSERT_TRUE(thick.IsRefined());
     Refine(scene.Grids, thick.Refinements);
-    const Solved solved(scene, 0.02);
+    const Solved solved(scene, SolvedTo);
     for (const Vec3& point : {Vec3(1.0, 1.0, 1.6), Vec3(1.4, 0.8, 1.7), Vec3(0.7, 1.3, 1.4)})
     {
       // Of the refined cell that holds it.
