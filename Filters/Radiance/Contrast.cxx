@@ -30,8 +30,11 @@ constexpr double UncertainContrast = 0.005;
 constexpr double UnevenContrast = 0.002;
 /// Roughness of the optical depths over a plate, over their mean where that is below one, above
 /// which the veil is told by a ray to each zone, as long as it is above the light field's
-/// tolerance: nine rays tell it to a third of that.
+/// tolerance.
 constexpr double LargestRoughness = 0.03;
+/// The same of these depths and of the veil that nine rays tell, over its mean, where both are
+/// above it and a third of the tolerance: lamps make veils rougher than depths are.
+constexpr double LeastRoughness = 0.01;
 /// Mean of these depths below which veils are so faint that they are told as at this one.
 constexpr double FaintDepth = 0.1;
 /// Zones of a plate behind uneven smoke above which the veil is not told by a ray to each.
@@ -75,7 +78,7 @@ private:
     const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change);
   /// The light of the sign itself, as it arrives from each block.
   void FillFactors();
-  void MakeVeils();
+  std::unique_ptr<SignVeil> MakeVeil(int band) const;
   void AddVeils();
   void FillMeans();
   /// Finds contrasts of what the blocks show, and the mean.
@@ -212,31 +215,40 @@ void SignLook::FillFactors()
   }
 }
 
-void SignLook::MakeVeils()
+std::unique_ptr<SignVeil> SignLook::MakeVeil(int band) const
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
-  // The veil of rough smoke is as rough, which few rays do not tell; of thin smoke it is
-  // proportional to the depth. Before a plate without a pattern its contrast is that of the veil,
-  // which falls off right before the plate's rim.
-  const double rough = std::max(LargestRoughness, this->View_.Field().Tolerance) *
-                       std::clamp(this->Result_.OpticalDepth, FaintDepth, 1.0);
-  const bool uneven =
-    this->Fine_ || this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) > rough;
-  const bool plain = this->Sight_.Across().Count() * this->Sight_.Up().Count() == 1;
-  for (int band = 0; band < this->Bands_; ++band)
+  const bool whole = !this->Sight_.PartlyHidden();
+  const auto shown = [&]
   {
-    if (this->Sight_.PartlyHidden() || this->Glows_ || plain ||
-        (uneven && places.size() <= MostRays))
-    {
-      this->Veils_.push_back(std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places,
-        this->Plate_, this->Sight_.Across(), this->Sight_.Up(), !this->Sight_.PartlyHidden()));
-    }
-    else
-    {
-      this->Veils_.push_back(std::make_unique<PlateVeil>(this->View_, this->Eye_, band, places,
-        this->Plate_, this->Sight_.Across(), this->Sight_.Up()));
-    }
+    return std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places, this->Plate_,
+      this->Sight_.Across(), this->Sight_.Up(), whole);
+  };
+  // Before a plate without a pattern its contrast is that of the veil, which falls off right before
+  // the plate's rim.
+  const bool plain = this->Sight_.Across().Count() * this->Sight_.Up().Count() == 1;
+  if (!whole || this->Glows_ || plain)
+  {
+    return shown();
   }
+  // The veil of rough smoke is as rough, which few rays do not tell; of thin smoke it is
+  // proportional to the depth.
+  const double tolerance = this->View_.Field().Tolerance;
+  const double depths = this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) /
+                        std::clamp(this->Result_.OpticalDepth, FaintDepth, 1.0);
+  const bool few = places.size() <= MostRays;
+  if (few && (this->Fine_ || depths > std::max(LargestRoughness, tolerance)))
+  {
+    return shown();
+  }
+  auto plate = std::make_unique<PlateVeil>(
+    this->View_, this->Eye_, band, places, this->Plate_, this->Sight_.Across(), this->Sight_.Up());
+  const double least = std::max(LeastRoughness, tolerance / 3.0);
+  if (few && std::min(depths, plate->RelativeRoughness()) > least)
+  {
+    return shown();
+  }
+  return plate;
 }
 
 void SignLook::AddVeils()
@@ -388,7 +400,10 @@ std::optional<SignMeasurement> SignLook::Measure(double cutOff)
   }
   result.Clear = this->Sight_.Clear();
   result.VisibleFraction = this->Sight_.VisibleFraction();
-  this->MakeVeils();
+  for (int band = 0; band < this->Bands_; ++band)
+  {
+    this->Veils_.push_back(this->MakeVeil(band));
+  }
   this->FillResult();
   if (!this->Fine_ && result.PerceivedContrastDivisionError > UnevenContrast)
   {

@@ -60,7 +60,8 @@ struct SignMeasurement
 /// sign is fainter than a hundredth of the dark luminance. Where uneven smoke leaves the perceived
 /// contrast uncertain by more than 0.002, the plate is divided more finely, with a ray for the veil
 /// to each part. So has each part one where optical depths over the plate are rough (Roughness.h)
-/// by more than 0.03 and the light field's tolerance, or the plate has no pattern.
+/// by more than 0.03 and the light field's tolerance, or they and the veil by more than 0.01 and a
+/// third of the tolerance, or the plate has no pattern.
 /// @param cutOff a sign whose own light, without the veil, has a smaller perceived contrast is
 /// measured no further: an even veil can only lower it, and an uneven one is not the sign
 SignMeasurement MeasureSign(const View& view, std::size_t sign, const Vec3& eye,

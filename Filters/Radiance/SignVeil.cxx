@@ -1,6 +1,7 @@
 #include "SignVeil.h"
 
 #include "GaussNodes.h"
+#include "Roughness.h"
 
 #include <cmath>
 #include <limits>
@@ -176,6 +177,22 @@ bool PlateVeil::TellRest()
   tell(Beside[0], along);
   tell(Beside[1], along);
   return true;
+}
+
+double PlateVeil::RelativeRoughness() const
+{
+  std::vector<SeenPlace> places;
+  std::vector<double> veils;
+  double mean = 0.0;
+  for (std::size_t way = 0; way < this->Ways_.size(); ++way)
+  {
+    SeenPlace& place = places.emplace_back();
+    place.OnPlate = {Nodes3[way % 3], Nodes3[way / 3]};
+    place.Weight = this->Ways_[way].Line.Weight;
+    veils.push_back(this->Ways_[way].Light.Veil());
+    mean += place.Weight * veils.back();
+  }
+  return mean > 0.0 ? Roughness(places, veils) / mean : 0.0;
 }
 
 Lanes PlateVeil::At(std::size_t place) const

@@ -76,6 +76,9 @@ public:
 
   Lanes At(std::size_t place) const override;
 
+  /// Roughness (Roughness.h) of the veil that the three by three rays tell, over its mean.
+  double RelativeRoughness() const;
+
 private:
   /// Tells the light of three ways from that of the others, if the veil bends little enough over
   /// the plate. Returns whether it does.

@@ -116,6 +116,22 @@ TEST(RandomRoom, DarkBarsBehindUnevenSmoke)
   }
 }
 
+// Lamps make the veil rougher than the optical depths over the plate, which are rough by 0.024 to
+// 0.035 of their mean here: nine rays told dark bars 2 to 5 % wrong.
+TEST(RandomRoom, DarkBarsBehindLitSmokeLikeNoise)
+{
+  for (const std::uint64_t seed : {5, 18, 20, 23})
+  {
+    const scenes::RandomScene room = scenes::MakeRandomRoom(seed);
+    const Solved solved(room.Description, 0.02);
+    const SignMeasurement sign = MeasureSign(*solved.TheView, 0, room.Eye, Observer{0.0});
+    ASSERT_GT(sign.VisibleFraction, 0.999);
+    ASSERT_FALSE(sign.Uneven);
+    const SignByRays rays = MeasureByRays(*solved.TheView, room.Eye, {20, 60});
+    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.01) << seed;
+  }
+}
+
 // Clouds in cells of 0.6 to 0.9 scattering depths, of which those that jut out are refined. As they
 // come, dark bars are up to 8 % off.
 TEST(RandomClouds, DarkBarsInCoarseCells)
