@@ -56,7 +56,7 @@ inline double FreeMemoryOfGroup(
     {
       continue;
     }
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string controllers = ',' + line.substr(first + 1, second - first - 1) + ',';
     const bool isFirst = controllers.find(",memory,") != std::string::npos;
     if (!isFirst && controllers != ",,")
     {

@@ -85,7 +85,7 @@ smokevis::ImageFile BuildFile(vtkImageData* image)
     for (vtkIdType value = 0; value < count; ++value)
     {
       const std::string name =
-        array->GetName() + (count == 1 ? std::string() : "." + std::to_string(value));
+        array->GetName() + (count == 1 ? std::string() : '.' + std::to_string(value));
       if (vtkStringArray::SafeDownCast(array))
       {
         file.Texts[name] = array->GetVariantValue(value).ToString();

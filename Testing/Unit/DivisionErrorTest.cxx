@@ -49,13 +49,13 @@ double ContrastOfSteps(const View& view)
   return MeasureByRays(view, Eye, {120, 120}).Contrast;
 }
 
-// Over forty draws of the smoke, none is off by more than three of its error bars or 0.005. Bars
+// Over twenty draws of the smoke, none is off by more than three of its error bars or 0.005. Bars
 // are up to five times what contrasts are off by: second differences overstate kinks.
 TEST(DivisionError, HoldsInUnevenSmoke)
 {
   for (const int bars : {1, 5})
   {
-    constexpr int Draws = 40;
+    constexpr int Draws = 20;
     double squares = 0.0;
     int divided = 0;
     for (int seed = 1; seed <= Draws; ++seed)

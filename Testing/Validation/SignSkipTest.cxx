@@ -228,12 +228,9 @@ SceneDescription CorridorToASign(double extinction)
 TEST(SignSkip, VeilBehindSmokeThatHidesIt)
 {
   const std::vector<double> places = {5.0, 20.0, 35.0, 45.0, 55.0};
-  for (const double tolerance : {0.1, 0.03})
-  {
-    std::size_t cutShort = 0;
-    ExpectAlike(CorridorToASign(1.0), tolerance, places, cutShort);
-    EXPECT_GT(cutShort, 60U);
-  }
+  std::size_t few = 0;
+  ExpectAlike(CorridorToASign(1.0), 0.1, places, few);
+  EXPECT_GT(few, 60U);
   const Solved solved(CorridorToASign(1.0), 0.1);
   Progress progress;
   const FloorMap map = ComputeFloorMap(*solved.TheView, PlacesFrom(5.0, 10), progress);
@@ -260,6 +257,13 @@ TEST(SignSkip, VeilBehindSmokeThatHidesIt)
     gap.Grids[0].Extinction[cell] = level ? 0.02F : 3.0F;
   }
   ExpectAlike(gap, 0.1, places, cutShort);
+}
+
+TEST(SignSkip, VeilBehindSmokeThatHidesItLong)
+{
+  std::size_t cutShort = 0;
+  ExpectAlike(CorridorToASign(1.0), 0.03, {5.0, 20.0, 35.0, 45.0, 55.0}, cutShort);
+  EXPECT_GT(cutShort, 60U);
 }
 
 } // namespace
