@@ -77,7 +77,7 @@ void CheckRows(double depthFrom, double depthTo, const std::vector<double>& albe
 
 TEST(Slab, DepthOne)
 {
-  CheckRows(1.0, 1.0, {0.0, 0.5, 0.9});
+  CheckRows(1.0, 1.0, {0.0, 0.9});
 }
 
 // Nothing is seen of light in black smoke, and lines carry what so large a plate sends out: it is
@@ -107,12 +107,11 @@ TEST(Slab, CoarseLayers)
 {
   CheckRows(5.0, 5.0, {0.5}, 9, 0.01);
   CheckRows(5.0, 5.0, {0.5}, 5, 0.03);
-  CheckRows(5.0, 5.0, {0.5}, 3, 0.05);
 }
 
 // In layers of two to three mean free paths light falls off to a twentieth: sources are
 // exponential there. Linear ones would let a quarter too little to two thirds too much through.
-TEST(Slab, ThroughVeryCoarseLayers)
+void CheckVeryCoarseLayers(const std::vector<double>& albedos)
 {
   report::Head("Slab under diffuse light, through layers of 2 and 3.3 mean free paths");
   const report::ReferenceTable table("slab_reflectance_transmittance.csv");
@@ -120,7 +119,7 @@ TEST(Slab, ThroughVeryCoarseLayers)
   {
     const double albedo = table.Number(row, "omega");
     if (table.Text(row, "incidence") != "diffuse" || table.Number(row, "tau0") != 10.0 ||
-        (albedo != 0.5 && albedo != 0.8 && albedo != 0.95))
+        std::find(albedos.begin(), albedos.end(), albedo) == albedos.end())
     {
       continue;
     }
@@ -134,8 +133,19 @@ TEST(Slab, ThroughVeryCoarseLayers)
   }
 }
 
+TEST(Slab, ThroughVeryCoarseLayers)
+{
+  CheckVeryCoarseLayers({0.5, 0.95});
+}
+
+TEST(Slab, ThroughVeryCoarseLayersLong)
+{
+  CheckVeryCoarseLayers({0.8});
+}
+
 TEST(Slab, CoarseLayersLong)
 {
+  CheckRows(5.0, 5.0, {0.5}, 3, 0.05);
   CheckRows(5.0, 5.0, {0.8}, 9, 0.01);
   CheckRows(5.0, 5.0, {0.8}, 5, 0.03);
   CheckRows(5.0, 5.0, {0.8}, 3, 0.05);
