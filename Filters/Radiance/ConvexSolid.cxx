@@ -171,12 +171,20 @@ Box ConvexSolid::Bounds() const
   Box box = Box::Nothing();
   for (const std::vector<Vec3>& face : this->Faces_)
   {
-    for (const Vec3& corner : face)
-    {
-      box.Add({corner, corner});
-    }
+    box.Add(Box::Around(face));
   }
   return this->Faces_.empty() ? Box() : box;
+}
+
+//--------------------------------------------------------------------------------------------------
+std::vector<Vec3> ConvexSolid::Corners() const
+{
+  std::vector<Vec3> corners;
+  for (const std::vector<Vec3>& face : this->Faces_)
+  {
+    corners.insert(corners.end(), face.begin(), face.end());
+  }
+  return corners;
 }
 
 } // namespace smokevis

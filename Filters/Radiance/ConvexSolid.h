@@ -35,6 +35,8 @@ public:
   /// Centre of mass.
   Vec3 Centre() const;
   Box Bounds() const;
+  /// Its corners, each as often as faces have it.
+  std::vector<Vec3> Corners() const;
 
 private:
   /// Adds a corner of the cut, unless it is there.

@@ -1,6 +1,7 @@
 // DirectLight's part for smoke cells: means over cells and over parts of them.
 #include "DirectLight.h"
 
+#include "ConvexSolid.h"
 #include "NearLights.h"
 #include "Places.h"
 #include "Scene.h"
@@ -28,8 +29,6 @@ constexpr double Inside = 0.49;
 /// edges, and at least so many tolerances of the shapes.
 constexpr double LeastHeight = 0.0037;
 constexpr double LeastHeights = 2.0;
-/// Cosine of the angle between a plate's normal and an axis above which it lies along that.
-constexpr double AlongAxis = 1.0 - 1e-9;
 
 } // namespace
 
@@ -64,25 +63,16 @@ bool DirectLight::ClearBefore(std::size_t light, std::int64_t cell) const
   {
     return false;
   }
-  Box before = this->Scene_.Smoke().BoxOf(cell);
-  const Vec3 size = before.Size();
-  const double least = LeastHeights * this->Scene_.Shapes().Tolerance();
-  // A plane askew to the cell leaves no box before it.
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double towards = root.Normal[axis];
-    if (std::abs(towards) > AlongAxis)
-    {
-      const double begin =
-        root.Centre[axis] + std::copysign(std::max(LeastHeight * size[axis], least), towards);
-      double& end = towards > 0.0 ? before.Lower[axis] : before.Upper[axis];
-      end = towards > 0.0 ? std::max(end, begin) : std::min(end, begin);
-    }
-  }
-  const Vec3 inset = (0.5 - Inside) * before.Size();
-  before = {before.Lower + inset, before.Upper - inset};
-  return glm::all(glm::lessThan(before.Lower, before.Upper)) &&
-         this->Scene_.Shapes().Free({root.Corners, root.Normal, before});
+  const Box cellBox = this->Scene_.Smoke().BoxOf(cell);
+  const Vec3 inset = (0.5 - Inside) * cellBox.Size();
+  const Box box{cellBox.Lower + inset, cellBox.Upper - inset};
+  // Of a cell that the plane cuts, what lies before it.
+  const double least = std::max(LeastHeight * glm::dot(glm::abs(root.Normal), cellBox.Size()),
+    LeastHeights * this->Scene_.Shapes().Tolerance());
+  const ConvexSolid before =
+    ConvexSolid(box).Cut({root.Normal, glm::dot(root.Normal, root.Centre) + least}).first;
+  return !before.Empty() &&
+         this->Scene_.Shapes().Free({root.Corners, root.Normal, before.Bounds(), before.Corners()});
 }
 
 std::optional<Spectrum> DirectLight::KeptFluence(std::size_t light, std::int64_t cell) const

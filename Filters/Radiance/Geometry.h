@@ -49,13 +49,15 @@ struct RayPiece
   double Begin, End;
 };
 
-/// All straight lines between a plane plate and a box.
+/// All straight lines between a plane plate and a box, or a convex part of one.
 struct Shaft
 {
   std::array<Vec3, 4> Plate;
   /// To where the box lies.
   Vec3 Normal;
   Box Before;
+  /// Corners of the part of the box; none: all of it.
+  std::vector<Vec3> Part = {};
 };
 
 /// The units of single precision: the same numbers, to their last digit but for rounding in double

@@ -2,7 +2,6 @@
 #include "Geometry.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -49,14 +48,16 @@ std::vector<Ball> BallsAlong(const Shaft& shaft)
 /// A shaft's convex hull.
 struct Hull
 {
-  explicit Hull(const Shaft& shaft) : Plate(shaft.Plate[0]), Normal(shaft.Normal)
+  explicit Hull(const Shaft& shaft)
+      : Corners(shaft.Part), Plate(shaft.Plate[0]), Normal(shaft.Normal)
   {
-    for (int corner = 0; corner < 8; ++corner)
+    for (int corner = 0; corner < 8 && shaft.Part.empty(); ++corner)
     {
       const Vec3 share(corner & 1, corner >> 1 & 1, corner >> 2);
-      this->Corners[corner] = shaft.Before.Lower + share * shaft.Before.Size();
+      this->Corners.push_back(shaft.Before.Lower + share * shaft.Before.Size());
     }
-    std::copy(shaft.Plate.begin(), shaft.Plate.end(), this->Corners.begin() + 8);
+    this->PlateCorners = static_cast<std::ptrdiff_t>(this->Corners.size());
+    this->Corners.insert(this->Corners.end(), shaft.Plate.begin(), shaft.Plate.end());
     for (const Vec3& corner : this->Corners)
     {
       this->Bounds.Add({corner, corner});
@@ -88,8 +89,9 @@ struct Hull
              [&](const Vec3& corner) { return above(corner) < 0.0; });
   }
 
-  /// Of the box, then of the plate.
-  std::array<Vec3, 12> Corners;
+  /// Of the box or its part, then of the plate; the place of the first of these.
+  std::vector<Vec3> Corners;
+  std::ptrdiff_t PlateCorners = 0;
   Box Bounds = Box::Nothing();
   Vec3 Plate, Normal;
   /// Height of its lowest corner: no plate is plane but for rounding.
@@ -101,7 +103,7 @@ struct Hull
 bool Geometry::Free(const Shaft& shaft) const
 {
   const Hull hull(shaft);
-  if (!std::all_of(hull.Corners.begin(), hull.Corners.begin() + 8,
+  if (!std::all_of(hull.Corners.begin(), hull.Corners.begin() + hull.PlateCorners,
         [&](const Vec3& corner) { return hull.Height(corner) > this->Tolerance_; }))
   {
     return false;

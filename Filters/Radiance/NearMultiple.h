@@ -15,14 +15,16 @@ namespace smokevis
 
 /// The smoke right before a light, lit by it, lights the smoke beside it: what is scattered twice
 /// is steeper there than the means of neighbouring cells tell, and behind the plate there are none.
-/// In cells where that matters the light varies as rays from a few places inside them gather it;
-/// its mean stays what it is. A cell is looked at when it is first asked for, and what is found
-/// depends on the light field alone, so that it does not matter which thread does so.
+/// In cells where that matters the light varies as rays from a few places inside them gather it,
+/// before a plate that cuts the cell and behind it; its mean stays what it is. A cell is looked at
+/// when it is first asked for, and what is found depends on the light field alone, so that it does
+/// not matter which thread does so.
 class NearMultiple
 {
 public:
   /// Value() is nowhere larger: all of the light at one of eight Gauss points, continued to the
-  /// corner of the cell beside it, 8 (1/2 + sqrt(3)/2)^3.
+  /// corner of the cell beside it, 8 (1/2 + sqrt(3)/2)^3. In a thin part of a cell that a plate
+  /// cuts it is not let beyond.
   static constexpr double Largest = 20.4;
 
   /// @param light must outlive this
@@ -34,16 +36,32 @@ public:
   double Value(std::int64_t cell, const Vec3& point) const;
 
 private:
+  /// Where the plane of a light's plate cuts a cell.
+  struct Cut
+  {
+    /// Axis that the plane faces most; -1: it does not cut the cell.
+    int Axis = -1;
+    /// Share of the cell along this axis that is below the plane, in the cell's middle, and its
+    /// slopes along all axes, 0 along this one.
+    double Middle = 0.0;
+    Vec3 Slopes{0.0};
+
+    /// That share at a place in the cell, itself given as shares along all axes.
+    double Below(const Vec3& share) const;
+  };
   struct Cell
   {
     std::int64_t Index = 0;
+    Cut Plate;
     tbb::collaborative_once_flag Found;
-    /// The light over its mean at eight places, first axis fastest.
-    std::array<double, 8> Values{};
+    /// The light over its mean at eight places, first axis fastest, of the whole cell, or of what
+    /// lies below the plate's plane, then of what lies above it.
+    std::array<std::array<double, 8>, 2> Values{};
   };
 
   /// Place of a cell among those that are looked at, or -1.
   int Place(std::int64_t cell) const;
+  Cut CutOf(std::int64_t cell, std::size_t light) const;
   void Find(Cell& cell) const;
 
   const IndirectLight& Light_;
