@@ -84,6 +84,19 @@ TEST(GeometryShafts, ABoxThatThePlatesPlaneMeetsIsNot)
   EXPECT_FALSE(Geometry(Room(), {}).Free(shaft));
 }
 
+// What lies before the plane of a box that it cuts is free of what the rest of the box holds.
+TEST(GeometryShafts, APartOfABoxIsAllThatCounts)
+{
+  Shaft shaft = Below();
+  shaft.Before.Lower.z = 0.5;
+  EXPECT_FALSE(Geometry(Room(), {}).Free(shaft)) << "the table";
+  shaft.Before.Upper.z = 3.1;
+  shaft.Part = {{2.0, 0.0, 1.0}, {2.5, 0.0, 1.0}, {2.5, 0.5, 1.0}, {2.0, 0.0, 2.9}};
+  EXPECT_TRUE(Geometry(Room(), {}).Free(shaft));
+  shaft.Part.push_back({2.0, 0.5, 0.8});
+  EXPECT_FALSE(Geometry(Room(), {}).Free(shaft));
+}
+
 TEST(GeometryShafts, ManyTrianglesNearAShaftAreNotAllLookedAt)
 {
   SurfaceMesh mesh;

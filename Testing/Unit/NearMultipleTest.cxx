@@ -1,10 +1,8 @@
 // Twice scattered light right before a sign, in cells as large as its bars, against finer cells.
+#include "GridRefinement.h"
 #include "RandomScenes.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
-
-#include <array>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,34 +11,15 @@ namespace
 
 using namespace smokevis;
 
-/// The same smoke in cells cut in two along each axis.
-SmokeGrid Halved(const SmokeGrid& grid)
+/// The same smoke in cells cut in so many along each axis.
+SmokeGrid InParts(const SmokeGrid& grid, int parts)
 {
-  SmokeGrid fine;
-  fine.Name = grid.Name;
-  std::array<std::size_t, 3> cells;
+  GridRefinement refinement;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto& nodes = grid.Nodes[axis];
-    cells[axis] = nodes.size() - 1;
-    for (std::size_t i = 0; i < cells[axis]; ++i)
-    {
-      fine.Nodes[axis].push_back(nodes[i]);
-      fine.Nodes[axis].push_back(0.5 * (nodes[i] + nodes[i + 1]));
-    }
-    fine.Nodes[axis].push_back(nodes.back());
+    refinement.Parts[axis].assign(grid.Nodes[axis].size() - 1, parts);
   }
-  for (std::size_t k = 0; k < 2 * cells[2]; ++k)
-  {
-    for (std::size_t j = 0; j < 2 * cells[1]; ++j)
-    {
-      for (std::size_t i = 0; i < 2 * cells[0]; ++i)
-      {
-        fine.Extinction.push_back(grid.Extinction[i / 2 + cells[0] * (j / 2 + cells[1] * (k / 2))]);
-      }
-    }
-  }
-  return fine;
+  return Refined(grid, refinement);
 }
 
 /// Veil of multiply scattered light over the last cell before a sign's first bar [cd/m2].
@@ -61,7 +40,7 @@ TEST(NearMultiple, VeilRightBeforeABar)
   constexpr double Reach = 0.184;
   scenes::RandomScene room = scenes::MakeRandomRoom(21);
   const double coarse = LastVeil(room, Reach);
-  room.Description.Grids[0] = Halved(room.Description.Grids[0]);
+  room.Description.Grids[0] = InParts(room.Description.Grids[0], 2);
   EXPECT_NEAR(coarse / LastVeil(room, Reach), 1.0, 0.12);
 }
 
