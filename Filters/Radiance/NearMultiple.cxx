@@ -133,8 +133,9 @@ double NearMultiple::Value(std::int64_t cell, const Vec3& point) const
   {
     const double below = own.Plate.Below(share);
     double& along = share[own.Plate.Axis];
-    part = along > below ? 1 : 0;
-    along = part == 1 ? (along - below) / (1.0 - below) : along / std::max(below, along);
+    // Of faces of the cell that the plane meets there is but one side.
+    part = below <= 0.0 || (along > below && below < 1.0) ? 1 : 0;
+    along = part == 1 ? (along - below) / (1.0 - below) : along / below;
   }
   const Vec3 upper = (share - Nodes2[0]) / (Nodes2[1] - Nodes2[0]);
   double sum = 0.0;
