@@ -29,11 +29,16 @@ constexpr std::uint64_t DirectionsKey = 1;
 /// Share of a cell below or above the plane of a plate up to which the plane counts as a face.
 constexpr double LeastPart = 0.15;
 
-/// One of the eight places, as shares of the cell along each axis: the mean over the places is that
-/// over the cell of what varies up to the third power.
-Vec3 ShareOf(int corner)
+/// One of the places, as shares of the cell along each axis: the weighted mean over the places is
+/// that over the cell of what varies up to the fifth power.
+Vec3 ShareOf(int place)
 {
-  return {Nodes2[corner & 1], Nodes2[corner >> 1 & 1], Nodes2[corner >> 2 & 1]};
+  return {Nodes3[place % 3], Nodes3[place / 3 % 3], Nodes3[place / 9]};
+}
+
+double WeightOf(int place)
+{
+  return Weights3[place % 3] * Weights3[place / 3 % 3] * Weights3[place / 9];
 }
 
 } // namespace
@@ -65,6 +70,7 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
     bool clear = true;
     double closest = 0.0;
     Cut cut;
+    const bool isPart = scene.Smoke().Parts().Find(near.Index) != nullptr;
     for (std::size_t i = 0; i < near.Lights.size() && depth > LeastShare && depth < MostDepth; ++i)
     {
       const NearLights::Light& own = near.Lights[i];
@@ -76,7 +82,7 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
         if (mean > closest)
         {
           closest = mean;
-          cut = own.Clear ? Cut() : this->CutOf(near.Index, own.Index);
+          cut = own.Clear && !isPart ? Cut() : this->CutOf(near.Index, own.Index);
         }
       }
     }
@@ -88,6 +94,11 @@ NearMultiple::NearMultiple(const IndirectLight& light) : Light_(light)
       Cell& own = this->Cells_.emplace_back();
       own.Index = near.Index;
       own.Plate = cut;
+      if (cut.Axis >= 0)
+      {
+        const bool below = cut.Middle > 0.5;
+        own.Sides = {!isPart || below, !isPart || !below};
+      }
     }
   }
 }
@@ -107,16 +118,15 @@ NearMultiple::Cut NearMultiple::CutOf(std::int64_t cell, std::size_t light) cons
   const Vec3 normal = root.Normal * size;
   const double offset = glm::dot(root.Normal, root.Centre - scene.Smoke().CellCentre(cell));
   Cut cut;
-  cut.Axis = std::abs(normal.x) > std::max(std::abs(normal.y), std::abs(normal.z)) ? 0
-             : std::abs(normal.y) > std::abs(normal.z)                             ? 1
-                                                                                   : 2;
+  const Vec3 facing = glm::abs(normal);
+  cut.Axis = facing.x > std::max(facing.y, facing.z) ? 0 : facing.y > facing.z ? 1 : 2;
   cut.Middle = 0.5 + offset / normal[cut.Axis];
   cut.Slopes = -normal / normal[cut.Axis];
   cut.Slopes[cut.Axis] = 0.0;
   bool cuts = false;
-  for (int corner = 0; corner < 8; ++corner)
+  for (int place = 0; place < Places; ++place)
   {
-    const double below = cut.Below(ShareOf(corner));
+    const double below = cut.Below(ShareOf(place));
     cuts = cuts || (below > LeastPart && below < 1.0 - LeastPart);
   }
   return cuts ? cut : Cut();
@@ -128,41 +138,57 @@ double NearMultiple::Value(std::int64_t cell, const Vec3& point) const
   tbb::collaborative_call_once(own.Found, [&] { this->Find(own); });
   const Medium& smoke = this->Light_.TheScene().Smoke();
   Vec3 share = 0.5 + (point - smoke.CellCentre(cell)) / smoke.CellSize(cell);
-  int part = 0;
+  int part = own.Sides[0] ? 0 : 1;
   if (own.Plate.Axis >= 0)
   {
     const double below = own.Plate.Below(share);
     double& along = share[own.Plate.Axis];
-    // Of faces of the cell that the plane meets there is but one side.
-    part = below <= 0.0 || (along > below && below < 1.0) ? 1 : 0;
-    along = part == 1 ? (along - below) / (1.0 - below) : along / below;
-  }
-  const Vec3 upper = (share - Nodes2[0]) / (Nodes2[1] - Nodes2[0]);
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    double weight = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
+    if (own.Sides[0] && own.Sides[1])
     {
-      weight *= (corner >> axis & 1) != 0 ? upper[axis] : 1.0 - upper[axis];
+      // Of faces of the cell that the plane meets there is but one side.
+      part = below <= 0.0 || (along > below && below < 1.0) ? 1 : 0;
     }
-    sum += weight * own.Values[part][corner];
+    const double length = part == 0 ? below : 1.0 - below;
+    const double within = part == 0 ? along : along - below;
+    along = within < length ? std::max(within / length, 0.0) : 1.0;
+  }
+  const std::array<double, 3> x = QuadraticWeights(share.x);
+  const std::array<double, 3> y = QuadraticWeights(share.y);
+  const std::array<double, 3> z = QuadraticWeights(share.z);
+  double sum = 0.0;
+  for (int place = 0; place < Places; ++place)
+  {
+    sum += x[place % 3] * y[place / 3 % 3] * z[place / 9] * own.Values[part][place];
   }
   return std::clamp(sum, 0.0, Largest);
 }
 
+Vec3 NearMultiple::PlaceIn(std::int64_t cell, const Vec3& share) const
+{
+  const Medium& smoke = this->Light_.TheScene().Smoke();
+  const Vec3 place = smoke.CellCentre(cell) + (share - 0.5) * smoke.CellSize(cell);
+  const CellPart* const part = smoke.Parts().Find(cell);
+  if (part == nullptr || smoke.Parts().Locate(part->Cell, place) == cell)
+  {
+    return place;
+  }
+  const Vec3 off = place - part->Centre;
+  const auto next = std::min_element(part->Fine.begin(), part->Fine.end(),
+    [&off](const PartSample& one, const PartSample& other)
+    { return glm::distance(off, Vec3(one.Offset)) < glm::distance(off, Vec3(other.Offset)); });
+  return part->Centre + Vec3(next->Offset);
+}
+
 void NearMultiple::Find(Cell& cell) const
 {
-  const Box box = this->Light_.TheScene().Smoke().BoxOf(cell.Index);
   const int axis = cell.Plate.Axis;
-  std::array<std::array<Vec3, 8>, 2> places;
-  std::array<std::array<double, 8>, 2> weights{};
-  for (int corner = 0; corner < 8; ++corner)
+  std::array<std::array<Vec3, Places>, 2> places;
+  std::array<std::array<double, Places>, 2> weights{};
+  double all = 0.0;
+  for (int place = 0; place < Places; ++place)
   {
-    const Vec3 share = ShareOf(corner);
+    const Vec3 share = ShareOf(place);
     const double below = cell.Plate.Below(share);
-    weights[0][corner] = below;
-    weights[1][corner] = 1.0 - below;
     for (int part = 0; part < 2; ++part)
     {
       Vec3 own = share;
@@ -170,21 +196,24 @@ void NearMultiple::Find(Cell& cell) const
       {
         own[axis] = part == 0 ? share[axis] * below : below + share[axis] * (1.0 - below);
       }
-      places[part][corner] = box.Lower + own * box.Size();
+      places[part][place] = this->PlaceIn(cell.Index, own);
+      weights[part][place] =
+        cell.Sides[part] ? WeightOf(place) * (part == 0 ? below : 1.0 - below) : 0.0;
+      all += weights[part][place];
     }
   }
-  std::array<std::array<double, 8>, 2> sums{};
+  std::array<std::array<double, Places>, 2> sums{};
   const EvenPoints points(DirectionsKey);
   for (int ray = 0; ray < Batches * RaysABatch; ++ray)
   {
     const auto random = points.Point(ray);
     const Vec3 direction = SphereDirection(random[0], random[1]);
-    for (int part = 0; part < (axis >= 0 ? 2 : 1); ++part)
+    for (int part = 0; part < 2; ++part)
     {
-      for (int corner = 0; corner < 8; ++corner)
+      for (int place = 0; cell.Sides[part] && place < Places; ++place)
       {
-        sums[part][corner] +=
-          this->Light_.Radiance(places[part][corner], direction, random[2], ray % Batches);
+        sums[part][place] +=
+          this->Light_.Radiance(places[part][place], direction, random[2], ray % Batches);
       }
     }
   }
@@ -192,13 +221,13 @@ void NearMultiple::Find(Cell& cell) const
   for (int part = 0; part < 2; ++part)
   {
     mean +=
-      std::inner_product(sums[part].begin(), sums[part].end(), weights[part].begin(), 0.0) / 8.0;
+      std::inner_product(sums[part].begin(), sums[part].end(), weights[part].begin(), 0.0) / all;
   }
   for (int part = 0; part < 2; ++part)
   {
-    for (int corner = 0; corner < 8; ++corner)
+    for (int place = 0; place < Places; ++place)
     {
-      cell.Values[part][corner] = mean > 0.0 ? sums[part][corner] / mean : 1.0;
+      cell.Values[part][place] = mean > 0.0 ? sums[part][place] / mean : 1.0;
     }
   }
 }

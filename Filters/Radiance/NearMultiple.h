@@ -22,20 +22,22 @@ namespace smokevis
 class NearMultiple
 {
 public:
-  /// Value() is nowhere larger: all of the light at one of eight Gauss points, continued to the
-  /// corner of the cell beside it, 8 (1/2 + sqrt(3)/2)^3. In a thin part of a cell that a plate
-  /// cuts it is not let beyond.
-  static constexpr double Largest = 20.4;
+  /// Value() is let no further: this would be all of a cell's light in a twentieth of it, which
+  /// what is scattered twice nowhere is.
+  static constexpr double Largest = 20.0;
 
   /// @param light must outlive this
   explicit NearMultiple(const IndirectLight& light);
 
   /// Whether the light in a cell is taken from here.
   bool Tells(std::int64_t cell) const { return this->Place(cell) >= 0; }
-  /// Value at a point of such a cell over the mean there: linear along each axis.
+  /// Value at a point of such a cell over the mean there: quadratic along each axis.
   double Value(std::int64_t cell, const Vec3& point) const;
 
 private:
+  /// In a cell, or on either side of a plate's plane: bars may be narrower than a cell.
+  static constexpr int Places = 27;
+
   /// Where the plane of a light's plate cuts a cell.
   struct Cut
   {
@@ -53,15 +55,21 @@ private:
   {
     std::int64_t Index = 0;
     Cut Plate;
+    /// Whether light fills it below the plate's plane, and above: all of it, or the side that a
+    /// part of a cell lies on.
+    std::array<bool, 2> Sides{true, false};
     tbb::collaborative_once_flag Found;
-    /// The light over its mean at eight places, first axis fastest, of the whole cell, or of what
+    /// The light over its mean at the places, first axis fastest, of the whole cell, or of what
     /// lies below the plate's plane, then of what lies above it.
-    std::array<std::array<double, 8>, 2> Values{};
+    std::array<std::array<double, Places>, 2> Values{};
   };
 
   /// Place of a cell among those that are looked at, or -1.
   int Place(std::int64_t cell) const;
   Cut CutOf(std::int64_t cell, std::size_t light) const;
+  /// A place given as shares of a cell's box; where that is not of the cell's own part, the sample
+  /// of the part next to it.
+  Vec3 PlaceIn(std::int64_t cell, const Vec3& share) const;
   void Find(Cell& cell) const;
 
   const IndirectLight& Light_;

@@ -230,14 +230,16 @@ Estimate TakenUpByBox(const Solved& solved, const Box& box, std::size_t first)
   return sum;
 }
 
-// A closed white box around a faint lamp, in a room that a bright one lights: light in the box goes
-// to and fro a thousand times, also by way of smoke, and is next to nothing of all there is. What
-// the lamp gives is what the box takes up in the end, and what stands outside does not change.
+/// A closed box, the smoke, what is asked of the light, and how far its power may be off.
 struct WhiteBox
 {
+  /// Depth: optical depth across the room.
   double Reflectance, Depth, Albedo, Tolerance, Bias;
 };
 
+// A closed white box around a faint lamp, in a room that a bright one lights: light in the box goes
+// to and fro a thousand times, also by way of smoke, and is next to nothing of all there is. What
+// the lamp gives is what the box takes up in the end, and what stands outside does not change.
 void CheckWhiteBoxes(std::initializer_list<WhiteBox> boxes)
 {
   report::Head("Power that closed white boxes take up of the lamps in them [lm]");
