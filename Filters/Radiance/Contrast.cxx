@@ -74,8 +74,14 @@ private:
   bool GlowsBefore(const SignSight::Zone& zone) const;
   /// What comes through the smoke before a zone, without its own light.
   /// @param change of the depth over the zone (ZoneChanges)
-  SeenBlock SeenThrough(
-    const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change);
+  /// @param lit direct illuminance of its middle in each band, none where nothing reflects
+  /// @param litChange of that over the zone
+  SeenBlock SeenThrough(const Facet& facet, const SignSight::Zone& zone, double depth,
+    const glm::dvec2& change, const Spectrum& lit,
+    const std::array<glm::dvec2, MaxBands>& litChange);
+  /// Direct illuminance of the middles of all zones of a part, in each band: of parts of which
+  /// nothing reflects, none.
+  std::array<std::vector<double>, MaxBands> DirectOn(const SignSight::Part& part) const;
   /// The light of the sign itself, as it arrives from each block.
   void FillFactors();
   std::unique_ptr<SignVeil> MakeVeil(int band) const;
@@ -135,8 +141,29 @@ bool SignLook::GlowsBefore(const SignSight::Zone& zone) const
     [&smoke](const Segment& piece) { return smoke.EmittedLuminance(piece.Cell) > 0.0F; });
 }
 
-SeenBlock SignLook::SeenThrough(
-  const Facet& facet, const SignSight::Zone& zone, double depth, const glm::dvec2& change)
+std::array<std::vector<double>, MaxBands> SignLook::DirectOn(const SignSight::Part& part) const
+{
+  std::array<std::vector<double>, MaxBands> illuminances;
+  illuminances.fill(std::vector<double>(part.Zones.size(), 0.0));
+  if (std::none_of(part.Zones.begin(), part.Zones.end(),
+        [](const SignSight::Zone& zone) { return zone.Reflects; }))
+  {
+    return illuminances;
+  }
+  for (std::size_t i = 0; i < part.Zones.size(); ++i)
+  {
+    const Spectrum direct = this->View_.DirectIlluminance(
+      this->Sight_.Places()[part.Zones[i].Place].Point, part.Front.Normal);
+    for (int band = 0; band < this->Bands_; ++band)
+    {
+      illuminances[band][i] = direct[band];
+    }
+  }
+  return illuminances;
+}
+
+SeenBlock SignLook::SeenThrough(const Facet& facet, const SignSight::Zone& zone, double depth,
+  const glm::dvec2& change, const Spectrum& lit, const std::array<glm::dvec2, MaxBands>& litChange)
 {
   const double squaredChange = glm::dot(change, change);
   SeenBlock block{};
@@ -155,20 +182,25 @@ SeenBlock SignLook::SeenThrough(
     const double transmitted =
       share * std::exp(-bandDepth) * (1.0 + scale * scale * squaredChange / 24.0);
     block.Spread[1 + band] = scale * std::sqrt(squaredChange / 12.0);
-    block.Spread[1 + MaxBands + band] = block.Spread[1 + band];
     Lanes multiple;
-    double steady = 0.0;
+    double together = 1.0;
     if (zone.Reflects)
     {
-      const double illuminance = this->View_.Illuminance(
-        scene.SurfacePatches() + zone.Cell, 0, place.Point, facet.Normal, band, multiple);
-      steady = illuminance - Mean(multiple);
+      multiple = this->View_.MultipleIlluminance(scene.SurfacePatches() + zone.Cell, 0, band);
+      const double all = lit[band] + Mean(multiple);
+      const glm::dvec2 dims = scale * change;
+      // Lamps close by light one end of a zone more than the other.
+      const glm::dvec2 lights =
+        all > 0.0 ? glm::clamp(litChange[band] / all, -MostChange, MostChange) : glm::dvec2(0.0);
+      together = 1.0 - glm::dot(dims, lights) / 12.0;
+      const double spread = glm::length(dims - lights) / std::sqrt(12.0);
+      block.Spread[1 + MaxBands + band] = glm::dot(dims, dims - lights) < 0.0 ? -spread : spread;
     }
     for (int batch = 0; batch < Batches; ++batch)
     {
       factors[batch][1 + band] = transmitted * relative;
       factors[batch][1 + MaxBands + band] =
-        transmitted * (steady + multiple[batch]) / glm::pi<double>();
+        transmitted * together * (lit[band] + multiple[batch]) / glm::pi<double>();
     }
     this->Result_.OpticalDepth += place.Weight / this->Sight_.Seen() * share * bandDepth;
   }
@@ -198,11 +230,23 @@ void SignLook::FillFactors()
     {
       unknown.push_back({std::min(MostChange, this->View_.TheScene().LargestScale() * error)});
     }
+    const std::array<std::vector<double>, MaxBands> direct = this->DirectOn(part);
+    std::array<std::vector<glm::dvec2>, MaxBands> directChanges;
+    std::transform(direct.begin(), direct.end(), directChanges.begin(),
+      [this](const std::vector<double>& values) { return this->Changes_.back().Of(values); });
     std::vector<SeenBlock> zones;
     zones.reserve(part.Zones.size());
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
-      zones.push_back(this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i]));
+      Spectrum lit{};
+      std::array<glm::dvec2, MaxBands> litChange;
+      for (int band = 0; band < MaxBands; ++band)
+      {
+        lit[band] = direct[band][i];
+        litChange[band] = directChanges[band][i];
+      }
+      zones.push_back(
+        this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i], lit, litChange));
     }
     this->DepthChanges_.push_back(std::move(changes));
     std::vector<SeenBlock>& blocks = this->Blocks_.emplace_back();

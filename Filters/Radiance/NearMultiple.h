@@ -31,12 +31,13 @@ public:
 
   /// Whether the light in a cell is taken from here.
   bool Tells(std::int64_t cell) const { return this->Place(cell) >= 0; }
-  /// Value at a point of such a cell over the mean there: quadratic along each axis.
+  /// Value at a point of such a cell over the mean there: linear along each axis, or quadratic in
+  /// parts of cells.
   double Value(std::int64_t cell, const Vec3& point) const;
 
 private:
-  /// In a cell, or on either side of a plate's plane: bars may be narrower than a cell.
-  static constexpr int Places = 27;
+  /// In a cell, or on either side of a plate's plane.
+  static constexpr int MostPlaces = 27;
 
   /// Where the plane of a light's plate cuts a cell.
   struct Cut
@@ -55,13 +56,15 @@ private:
   {
     std::int64_t Index = 0;
     Cut Plate;
+    /// Places along each axis.
+    int Along = 2;
     /// Whether light fills it below the plate's plane, and above: all of it, or the side that a
     /// part of a cell lies on.
     std::array<bool, 2> Sides{true, false};
     tbb::collaborative_once_flag Found;
     /// The light over its mean at the places, first axis fastest, of the whole cell, or of what
     /// lies below the plate's plane, then of what lies above it.
-    std::array<std::array<double, Places>, 2> Values{};
+    std::array<std::array<double, MostPlaces>, 2> Values{};
   };
 
   /// Place of a cell among those that are looked at, or -1.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -310,16 +311,27 @@ double View::Reflected(
   return factor * illuminance;
 }
 
+Spectrum View::DirectIlluminance(const Vec3& point, const Vec3& normal) const
+{
+  Spectrum direct{};
+  for (std::size_t light = 0; light < this->Scene_->Lights().Lights().size(); ++light)
+  {
+    const Spectrum own = this->Implementation_->Direct.Illuminance(light, point, normal);
+    std::transform(own.begin(), own.end(), direct.begin(), direct.begin(), std::plus<>());
+  }
+  return direct;
+}
+
+const Lanes& View::MultipleIlluminance(std::size_t patch, int side, int band) const
+{
+  return this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
+}
+
 double View::Illuminance(
   std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band, Lanes& lanes) const
 {
-  double direct = 0.0;
-  for (std::size_t light = 0; light < this->Scene_->Lights().Lights().size(); ++light)
-  {
-    direct += this->Implementation_->Direct.Illuminance(light, point, normal)[band];
-  }
-  lanes = this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
-  return std::max(0.0, direct + Mean(lanes));
+  lanes = this->MultipleIlluminance(patch, side, band);
+  return std::max(0.0, this->DirectIlluminance(point, normal)[band] + Mean(lanes));
 }
 
 double View::EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,

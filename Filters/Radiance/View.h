@@ -89,6 +89,10 @@ public:
   double EmitterLuminance(std::size_t emitter, int side, const Vec3& point, const Vec3& towards,
     int band, Lanes& lanes) const;
 
+  /// Illuminance at a point of a surface with a unit normal, straight from lights [lx].
+  Spectrum DirectIlluminance(const Vec3& point, const Vec3& normal) const;
+  /// Batches of the multiply scattered illuminance of a side of a patch [lx].
+  const Lanes& MultipleIlluminance(std::size_t patch, int side, int band) const;
   /// Illuminance at a point of a side of a patch [lx].
   /// @param lanes receives the batches of what is multiply scattered of it
   double Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,
