@@ -51,6 +51,12 @@ double BandWeight(const View& view, int band)
   return view.TheScene().Bands() == 1 ? 1.0 : PhotopicWeights[band];
 }
 
+/// Standard deviation of what changes evenly from one side of a zone to the other.
+glm::dvec2 SpreadOf(const glm::dvec2& change)
+{
+  return change / std::sqrt(12.0);
+}
+
 /// One look at a sign.
 class SignLook
 {
@@ -181,26 +187,27 @@ SeenBlock SignLook::SeenThrough(const Facet& facet, const SignSight::Zone& zone,
     // What an optical depth lets through that goes straight from side to side.
     const double transmitted =
       share * std::exp(-bandDepth) * (1.0 + scale * scale * squaredChange / 24.0);
-    block.Spread[1 + band] = scale * std::sqrt(squaredChange / 12.0);
+    const glm::dvec2 dims = scale * change;
+    block.Spread[1 + band] = -SpreadOf(dims);
     Lanes multiple;
+    double steady = 0.0;
     double together = 1.0;
     if (zone.Reflects)
     {
       multiple = this->View_.MultipleIlluminance(scene.SurfacePatches() + zone.Cell, 0, band);
-      const double all = lit[band] + Mean(multiple);
-      const glm::dvec2 dims = scale * change;
+      const double all = std::max(0.0, lit[band] + Mean(multiple));
+      steady = all - Mean(multiple);
       // Lamps close by light one end of a zone more than the other.
       const glm::dvec2 lights =
         all > 0.0 ? glm::clamp(litChange[band] / all, -MostChange, MostChange) : glm::dvec2(0.0);
       together = 1.0 - glm::dot(dims, lights) / 12.0;
-      const double spread = glm::length(dims - lights) / std::sqrt(12.0);
-      block.Spread[1 + MaxBands + band] = glm::dot(dims, dims - lights) < 0.0 ? -spread : spread;
+      block.Spread[1 + MaxBands + band] = SpreadOf(lights - dims);
     }
     for (int batch = 0; batch < Batches; ++batch)
     {
       factors[batch][1 + band] = transmitted * relative;
       factors[batch][1 + MaxBands + band] =
-        transmitted * together * (lit[band] + multiple[batch]) / glm::pi<double>();
+        transmitted * together * (steady + multiple[batch]) / glm::pi<double>();
     }
     this->Result_.OpticalDepth += place.Weight / this->Sight_.Seen() * share * bandDepth;
   }
@@ -342,7 +349,7 @@ void SignLook::AddVeils()
       const double along =
         squared > 0.0 && means[zone] > 0.0 ? glm::dot(changes[zone], depth) / means[zone] : 0.0;
       SeenBlock& block = this->Blocks_[index][i];
-      block.Spread[0] = squared > 0.0 ? -along / std::sqrt(12.0 * squared) : 0.0;
+      block.Spread[0] = squared > 0.0 ? SpreadOf(along / squared * depth) : glm::dvec2(0.0);
       for (int batch = 0; batch < Batches; ++batch)
       {
         block.Factors[batch][0] = veils[part.Zones[zone].Place][batch] * (1.0 - along / 24.0);

@@ -172,6 +172,11 @@ double NearMultiple::Value(std::int64_t cell, const Vec3& point) const
     const double within = part == 0 ? along : along - below;
     along = within < length ? std::max(within / length, 0.0) : 1.0;
   }
+  if (own.Along == PartPlaces)
+  {
+    // A part may reach beyond its box.
+    share = glm::clamp(share, 0.0, 1.0);
+  }
   const int along = own.Along;
   const std::array<double, 3> x = WeightsAt(share.x, along);
   const std::array<double, 3> y = WeightsAt(share.y, along);
@@ -185,10 +190,9 @@ double NearMultiple::Value(std::int64_t cell, const Vec3& point) const
   return std::clamp(sum, 0.0, Largest);
 }
 
-Vec3 NearMultiple::PlaceIn(std::int64_t cell, const Vec3& share) const
+Vec3 NearMultiple::PlaceIn(std::int64_t cell, const Vec3& place) const
 {
   const Medium& smoke = this->Light_.TheScene().Smoke();
-  const Vec3 place = smoke.CellCentre(cell) + (share - 0.5) * smoke.CellSize(cell);
   const CellPart* const part = smoke.Parts().Find(cell);
   if (part == nullptr || smoke.Parts().Locate(part->Cell, place) == cell)
   {
@@ -203,6 +207,9 @@ Vec3 NearMultiple::PlaceIn(std::int64_t cell, const Vec3& share) const
 
 void NearMultiple::Find(Cell& cell) const
 {
+  const Medium& smoke = this->Light_.TheScene().Smoke();
+  const Vec3 centre = smoke.CellCentre(cell.Index);
+  const Vec3 size = smoke.CellSize(cell.Index);
   const int axis = cell.Plate.Axis;
   const int count = cell.Along * cell.Along * cell.Along;
   std::array<std::array<Vec3, MostPlaces>, 2> places;
@@ -219,10 +226,13 @@ void NearMultiple::Find(Cell& cell) const
       {
         own[axis] = part == 0 ? share[axis] * below : below + share[axis] * (1.0 - below);
       }
-      places[part][place] = this->PlaceIn(cell.Index, own);
-      weights[part][place] =
-        cell.Sides[part] ? WeightOf(place, cell.Along) * (part == 0 ? below : 1.0 - below) : 0.0;
-      all += weights[part][place];
+      const Vec3 wanted = centre + (own - 0.5) * size;
+      places[part][place] = this->PlaceIn(cell.Index, wanted);
+      if (cell.Sides[part] && places[part][place] == wanted)
+      {
+        weights[part][place] = WeightOf(place, cell.Along) * (part == 0 ? below : 1.0 - below);
+        all += weights[part][place];
+      }
     }
   }
   std::array<std::array<double, MostPlaces>, 2> sums{};

@@ -58,8 +58,8 @@ private:
     Cut Plate;
     /// Places along each axis.
     int Along = 2;
-    /// Whether light fills it below the plate's plane, and above: all of it, or the side that a
-    /// part of a cell lies on.
+    /// Whether light fills it below the plate's plane, and above: of a part of a cell, the side
+    /// that its centre lies on.
     std::array<bool, 2> Sides{true, false};
     tbb::collaborative_once_flag Found;
     /// The light over its mean at the places, first axis fastest, of the whole cell, or of what
@@ -70,9 +70,8 @@ private:
   /// Place of a cell among those that are looked at, or -1.
   int Place(std::int64_t cell) const;
   Cut CutOf(std::int64_t cell, std::size_t light) const;
-  /// A place given as shares of a cell's box; where that is not of the cell's own part, the sample
-  /// of the part next to it.
-  Vec3 PlaceIn(std::int64_t cell, const Vec3& share) const;
+  /// The place, or where that is not in the cell's own part the sample of the part next to it.
+  Vec3 PlaceIn(std::int64_t cell, const Vec3& place) const;
   void Find(Cell& cell) const;
 
   const IndirectLight& Light_;

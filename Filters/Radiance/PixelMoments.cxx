@@ -49,15 +49,15 @@ void AddLight(
 /// The same of its square.
 /// @param spread of the factors (SeenBlock)
 void AddSquare(const ResampledFactors& factors,
-  const std::array<PatternVector, PatternValues>& products, const PatternVector& spread,
-  double weight, Resampled& square)
+  const std::array<PatternVector, PatternValues>& products,
+  const std::array<glm::dvec2, PatternValues>& spread, double weight, Resampled& square)
 {
   for (int i = 0; i < PatternValues; ++i)
   {
     for (int j = 0; j <= i; ++j)
     {
       const double share =
-        (i == j ? 1.0 : 2.0) * weight * (1.0 + spread[i] * spread[j]) * products[i][j];
+        (i == j ? 1.0 : 2.0) * weight * (1.0 + glm::dot(spread[i], spread[j])) * products[i][j];
       if (share == 0.0)
       {
         continue;

@@ -15,9 +15,10 @@ struct SeenBlock
   /// Solid angle of a unit of the pattern's area, of what is not hidden.
   double Density;
   Coefficients Factors;
-  /// By how much each factor differs over the block, where places are not averaged in pixels:
-  /// standard deviation over mean.
-  PatternVector Spread{};
+  /// By how much each factor differs over the block, where places are not averaged in pixels: along
+  /// both edges, standard deviation over mean, with the sign of the change from one side to the
+  /// other.
+  std::array<glm::dvec2, PatternValues> Spread{};
 };
 
 /// Factors of the mean of all batches.
