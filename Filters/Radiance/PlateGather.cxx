@@ -26,11 +26,8 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
-/// A sign of more cells gathers for blocks of them, or for those that are to be bright and for the
-/// others alone.
+/// A sign of more cells gathers for those that are to be bright and for the others alone.
 constexpr std::size_t MostOwnCells = 16;
-/// Along each edge of a sign.
-constexpr int Blocks = 4;
 /// How far before a plate its rays begin: the smoke between is missing, where its light is
 /// brightest.
 constexpr double LiftTolerances = 2.0;
@@ -73,19 +70,6 @@ private:
   /// Of each and all before it.
   std::vector<double> Areas_;
 };
-
-/// Block of a sign that a point of it lies in.
-int BlockOf(const Sign& sign, const Vec3& point)
-{
-  int block = 0;
-  for (const int corner : {3, 1})
-  {
-    const Vec3 edge = sign.Corners[corner] - sign.Corners[0];
-    const double share = glm::dot(point - sign.Corners[0], edge) / glm::dot(edge, edge);
-    block = Blocks * block + std::clamp(static_cast<int>(share * Blocks), 0, Blocks - 1);
-  }
-  return block;
-}
 
 } // namespace
 
@@ -145,27 +129,16 @@ void PlateGather::AddTasks(std::size_t index, std::vector<Task>& tasks) const
   const bool emits = std::any_of(sign.Cells.begin(), sign.Cells.end(),
     [&](std::size_t cell)
     { return this->Scene_.Lights().Cells()[cell].Luminance[this->Band_] > 0.0; });
+  if (!emits)
+  {
+    tasks.push_back({index, sign.Cells});
+    return;
+  }
   if (sign.Cells.size() <= MostOwnCells)
   {
     for (const std::size_t cell : sign.Cells)
     {
       tasks.push_back({index, {cell}});
-    }
-    return;
-  }
-  if (!emits)
-  {
-    std::array<Task, Blocks * Blocks> blocks;
-    for (const std::size_t cell : sign.Cells)
-    {
-      blocks[BlockOf(sign, this->Scene_.Lights().CellCentre(cell))].Cells.push_back(cell);
-    }
-    for (Task& block : blocks)
-    {
-      if (!block.Cells.empty())
-      {
-        tasks.push_back({index, std::move(block.Cells)});
-      }
     }
     return;
   }

@@ -17,9 +17,10 @@ class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
 /// and the cells of their pattern more rarely still, so that noise would pass for a pattern.
-/// Smoke glows before what is lit, and around lamps close by: each cell of a sign has a value of
-/// its own. Of many cells, those of a block have one, or of a luminous sign those that are to be
-/// bright and the others.
+/// Indirect light varies little over a plate that is small against the scene, so that the cells of
+/// a sign that only reflects share one value. Smoke glows before what is lit: each cell of a
+/// luminous sign has a value of its own, or of one of many cells those that are to be bright have
+/// one and the others another.
 class PlateGather
 {
 public:
