@@ -40,7 +40,7 @@ double LastVeils(const scenes::RandomScene& room, int bars, double reach)
 }
 
 // From the means of neighbouring cells a quarter of it would be missing. Noise of the light in the
-// cell is 4 %, and as much is left that does not vary as a quadratic does.
+// cell is 4 %, and as much is left that does not vary linearly there.
 TEST(NearMultiple, VeilRightBeforeABar)
 {
   constexpr double Reach = 0.184;
