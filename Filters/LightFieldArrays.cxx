@@ -13,6 +13,9 @@ namespace
 {
 
 constexpr int Sides = 2;
+/// Of the emitter cells.
+const char* const Gradient = "MultipleIlluminanceGradient";
+constexpr int Axes = 3;
 
 /// Of the blocks of each kind.
 std::array<std::vector<vtkIdType>, 3> CellCounts(const SceneBlocks& blocks)
@@ -82,6 +85,47 @@ void LoadPatches(const SurfaceBlock& block, std::size_t firstPatch, LightField& 
   }
 }
 
+/// @param first of the cells among all emitter cells
+void StoreGradients(const LightField& field, std::size_t first, int bands, vtkDataSet& block)
+{
+  const std::size_t emitters = field.MultipleGradient.size() / field.Bands;
+  const auto gradient = AddArray(block, Gradient, bands * Axes);
+  for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < bands; ++band)
+    {
+      const glm::vec3& own =
+        field.MultipleGradient[std::min(band, field.Bands - 1) * emitters + first + i];
+      for (int axis = 0; axis < Axes; ++axis)
+      {
+        gradient->SetTypedComponent(i, band * Axes + axis, own[axis]);
+      }
+    }
+  }
+}
+
+/// Light fields that were saved before there were gradients have none.
+void LoadGradients(const SurfaceBlock& block, std::size_t first, LightField& field)
+{
+  if (!block.Mesh->GetCellData()->GetArray(Gradient))
+  {
+    return;
+  }
+  const std::size_t emitters = field.MultipleGradient.size() / field.Bands;
+  const NeededArray gradient(*block.Mesh, block.Name, Gradient, field.Bands * Axes);
+  for (vtkIdType i = 0; i < block.Mesh->GetNumberOfCells(); ++i)
+  {
+    for (int band = 0; band < field.Bands; ++band)
+    {
+      for (int axis = 0; axis < Axes; ++axis)
+      {
+        field.MultipleGradient[band * emitters + first + i][axis] =
+          gradient.Get(i, band * Axes + axis);
+      }
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -104,6 +148,12 @@ void StoreLightField(LightField&& field, const Medium& smoke, const SceneBlocks&
       patch += block.Mesh->GetNumberOfCells();
     }
   }
+  std::size_t emitter = 0;
+  for (const SurfaceBlock& block : blocks.Emitters)
+  {
+    StoreGradients(field, emitter, bands, *block.Mesh);
+    emitter += block.Mesh->GetNumberOfCells();
+  }
   std::vector<float>().swap(field.DirectIlluminance);
   std::vector<Lanes>().swap(field.MultipleIlluminance);
 }
@@ -125,6 +175,13 @@ std::vector<vtkDataArray*> LightArrays(const SceneBlocks& blocks)
       {
         arrays.push_back(block.Mesh->GetCellData()->GetArray(name));
       }
+    }
+  }
+  for (const SurfaceBlock& block : blocks.Emitters)
+  {
+    if (vtkDataArray* const gradient = block.Mesh->GetCellData()->GetArray(Gradient))
+    {
+      arrays.push_back(gradient);
     }
   }
   return arrays;
@@ -157,6 +214,10 @@ bool ShareLightField(const SceneBlocks& from, const SceneBlocks& to)
   };
   shareMeshes(from.Surfaces, to.Surfaces);
   shareMeshes(from.Emitters, to.Emitters);
+  for (std::size_t i = 0; i < to.Emitters.size(); ++i)
+  {
+    share(*from.Emitters[i].Mesh, *to.Emitters[i].Mesh, Gradient);
+  }
   return true;
 }
 
@@ -177,6 +238,12 @@ LightField LoadLightField(const SceneBlocks& blocks, const Medium& smoke, int ba
   field.MultipleFluence.resize(field.Cells * bands);
   field.DirectIlluminance.resize(field.Patches * bands * Sides);
   field.MultipleIlluminance.resize(field.Patches * bands * Sides);
+  std::size_t emitters = 0;
+  for (const SurfaceBlock& block : blocks.Emitters)
+  {
+    emitters += block.Mesh->GetNumberOfCells();
+  }
+  field.MultipleGradient.resize(emitters * bands, glm::vec3(0.0F));
   std::size_t cell = 0;
   for (const SmokeBlock& block : blocks.Smoke)
   {
@@ -191,6 +258,12 @@ LightField LoadLightField(const SceneBlocks& blocks, const Medium& smoke, int ba
       LoadPatches(block, patch, field);
       patch += block.Mesh->GetNumberOfCells();
     }
+  }
+  std::size_t emitter = 0;
+  for (const SurfaceBlock& block : blocks.Emitters)
+  {
+    LoadGradients(block, emitter, field);
+    emitter += block.Mesh->GetNumberOfCells();
   }
   return field;
 }

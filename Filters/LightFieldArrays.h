@@ -17,7 +17,8 @@ namespace smokevis
 /// `MultipleFluence` with a value a batch, band after band. Surface and emitter cells:
 /// `Illuminance`, `IlluminanceError`, `IlluminanceBack` [lx] a band, `DirectIlluminance` with front
 /// and back of each band, and `MultipleIlluminance` with the batches of the front, then of the
-/// back, band after band.
+/// back, band after band. Emitter cells also: `MultipleIlluminanceGradient` [1/m], the
+/// gradient of that over the front, over its mean, a vector a band.
 ///
 /// A cell that walls cut is in parts, each with a light of its own: its `DirectFluence` and
 /// `MultipleFluence` are those of its first part, `Fluence` is the mean over the cell. The other

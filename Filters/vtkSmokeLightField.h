@@ -28,8 +28,9 @@
  * the finer cells, `RefinedDirectFluence` and `RefinedMultipleFluence`;
  * - surfaces and emitters: `Illuminance` of the front and its standard error `IlluminanceError`
  * [lx]; `IlluminanceBack`; `DirectIlluminance`, front and back of each band; `MultipleIlluminance`,
- * 16 batches of the front, then the back, of each band. Surfaces are cut into patches; `ParentCell`
- * is the input cell of each.
+ * 16 batches of the front, then the back, of each band; of emitters also its gradient over the
+ * front, over its mean [1/m], `MultipleIlluminanceGradient`, a vector a band. Surfaces are cut into
+ * patches; `ParentCell` is the input cell of each.
  *
  * Field data of the output: `Albedo`, `AngstromExponent`, `Bands`, `ExtinctionScale` (a value a
  * band), `SkyLuminance`, `Tolerance`, `Seed`, `Time` [s] where the smoke has one, and what was done

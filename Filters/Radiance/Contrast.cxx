@@ -6,6 +6,7 @@
 #include "SignSight.h"
 #include "SignVeil.h"
 #include "ZoneChanges.h"
+#include "ZoneLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,14 +81,8 @@ private:
   bool GlowsBefore(const SignSight::Zone& zone) const;
   /// What comes through the smoke before a zone, without its own light.
   /// @param change of the depth over the zone (ZoneChanges)
-  /// @param lit direct illuminance of its middle in each band, none where nothing reflects
-  /// @param litChange of that over the zone
-  SeenBlock SeenThrough(const Facet& facet, const SignSight::Zone& zone, double depth,
-    const glm::dvec2& change, const Spectrum& lit,
-    const std::array<glm::dvec2, MaxBands>& litChange);
-  /// Direct illuminance of the middles of all zones of a part, in each band: of parts of which
-  /// nothing reflects, none.
-  std::array<std::vector<double>, MaxBands> DirectOn(const SignSight::Part& part) const;
+  SeenBlock SeenThrough(const SignSight::Part& part, std::size_t index, const ZoneLight& light,
+    double depth, const glm::dvec2& change);
   /// The light of the sign itself, as it arrives from each block.
   void FillFactors();
   std::unique_ptr<SignVeil> MakeVeil(int band) const;
@@ -147,30 +142,11 @@ bool SignLook::GlowsBefore(const SignSight::Zone& zone) const
     [&smoke](const Segment& piece) { return smoke.EmittedLuminance(piece.Cell) > 0.0F; });
 }
 
-std::array<std::vector<double>, MaxBands> SignLook::DirectOn(const SignSight::Part& part) const
+SeenBlock SignLook::SeenThrough(const SignSight::Part& part, std::size_t index,
+  const ZoneLight& light, double depth, const glm::dvec2& change)
 {
-  std::array<std::vector<double>, MaxBands> illuminances;
-  illuminances.fill(std::vector<double>(part.Zones.size(), 0.0));
-  if (std::none_of(part.Zones.begin(), part.Zones.end(),
-        [](const SignSight::Zone& zone) { return zone.Reflects; }))
-  {
-    return illuminances;
-  }
-  for (std::size_t i = 0; i < part.Zones.size(); ++i)
-  {
-    const Spectrum direct = this->View_.DirectIlluminance(
-      this->Sight_.Places()[part.Zones[i].Place].Point, part.Front.Normal);
-    for (int band = 0; band < this->Bands_; ++band)
-    {
-      illuminances[band][i] = direct[band];
-    }
-  }
-  return illuminances;
-}
-
-SeenBlock SignLook::SeenThrough(const Facet& facet, const SignSight::Zone& zone, double depth,
-  const glm::dvec2& change, const Spectrum& lit, const std::array<glm::dvec2, MaxBands>& litChange)
-{
+  const SignSight::Zone& zone = part.Zones[index];
+  const Facet& facet = part.Front;
   const double squaredChange = glm::dot(change, change);
   SeenBlock block{};
   Coefficients& factors = block.Factors;
@@ -189,25 +165,22 @@ SeenBlock SignLook::SeenThrough(const Facet& facet, const SignSight::Zone& zone,
       share * std::exp(-bandDepth) * (1.0 + scale * scale * squaredChange / 24.0);
     const glm::dvec2 dims = scale * change;
     block.Spread[1 + band] = -SpreadOf(dims);
-    Lanes multiple;
-    double steady = 0.0;
-    double together = 1.0;
-    if (zone.Reflects)
-    {
-      multiple = this->View_.MultipleIlluminance(scene.SurfacePatches() + zone.Cell, 0, band);
-      const double all = std::max(0.0, lit[band] + Mean(multiple));
-      steady = all - Mean(multiple);
-      // Lamps close by light one end of a zone more than the other.
-      const glm::dvec2 lights =
-        all > 0.0 ? glm::clamp(litChange[band] / all, -MostChange, MostChange) : glm::dvec2(0.0);
-      together = 1.0 - glm::dot(dims, lights) / 12.0;
-      block.Spread[1 + MaxBands + band] = SpreadOf(lights - dims);
-    }
     for (int batch = 0; batch < Batches; ++batch)
     {
       factors[batch][1 + band] = transmitted * relative;
-      factors[batch][1 + MaxBands + band] =
-        transmitted * together * (steady + multiple[batch]) / glm::pi<double>();
+    }
+    if (zone.Reflects)
+    {
+      const ZoneLight::Illuminance& lit = light.At(index, band);
+      // Lamps close by light one end of a zone more than the other.
+      const glm::dvec2 lights = glm::clamp(lit.Change, -MostChange, MostChange);
+      const double together = 1.0 - glm::dot(dims, lights) / 12.0;
+      block.Spread[1 + MaxBands + band] = SpreadOf(lights - dims);
+      for (int batch = 0; batch < Batches; ++batch)
+      {
+        factors[batch][1 + MaxBands + band] =
+          transmitted * together * (lit.Direct + lit.Multiple[batch]) / glm::pi<double>();
+      }
     }
     this->Result_.OpticalDepth += place.Weight / this->Sight_.Seen() * share * bandDepth;
   }
@@ -237,23 +210,12 @@ void SignLook::FillFactors()
     {
       unknown.push_back({std::min(MostChange, this->View_.TheScene().LargestScale() * error)});
     }
-    const std::array<std::vector<double>, MaxBands> direct = this->DirectOn(part);
-    std::array<std::vector<glm::dvec2>, MaxBands> directChanges;
-    std::transform(direct.begin(), direct.end(), directChanges.begin(),
-      [this](const std::vector<double>& values) { return this->Changes_.back().Of(values); });
+    const ZoneLight light(this->View_, this->Sight_, part, this->Changes_.back());
     std::vector<SeenBlock> zones;
     zones.reserve(part.Zones.size());
     for (std::size_t i = 0; i < part.Zones.size(); ++i)
     {
-      Spectrum lit{};
-      std::array<glm::dvec2, MaxBands> litChange;
-      for (int band = 0; band < MaxBands; ++band)
-      {
-        lit[band] = direct[band][i];
-        litChange[band] = directChanges[band][i];
-      }
-      zones.push_back(
-        this->SeenThrough(part.Front, part.Zones[i], depths[i], changes[i], lit, litChange));
+      zones.push_back(this->SeenThrough(part, i, light, depths[i], changes[i]));
     }
     this->DepthChanges_.push_back(std::move(changes));
     std::vector<SeenBlock>& blocks = this->Blocks_.emplace_back();

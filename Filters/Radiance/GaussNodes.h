@@ -24,6 +24,16 @@ inline std::array<double, 3> QuadraticWeights(double t)
   return {b * c / (2.0 * step * step), -a * c / (step * step), a * b / (2.0 * step * step)};
 }
 
+/// By how much these weights change with t.
+inline std::array<double, 3> QuadraticSlopes(double t)
+{
+  const double a = t - Nodes3[0];
+  const double b = t - Nodes3[1];
+  const double c = t - Nodes3[2];
+  constexpr double step = Nodes3[1] - Nodes3[0];
+  return {(b + c) / (2.0 * step * step), -(a + c) / (step * step), (a + b) / (2.0 * step * step)};
+}
+
 /// Factors of 1, t and t^2 in the quadratic with these values at the three nodes.
 inline std::array<double, 3> QuadraticFactors(const std::array<double, 3>& values)
 {

@@ -73,6 +73,9 @@ void Solver::CopyBand(int from, int to)
     field.MultipleFluence.begin() + field.CellIndex(to, 0));
   std::copy_n(field.MultipleIlluminance.begin() + field.PatchIndex(from, 0, 0), 2 * field.Patches,
     field.MultipleIlluminance.begin() + field.PatchIndex(to, 0, 0));
+  const std::size_t emitters = field.MultipleGradient.size() / field.Bands;
+  std::copy_n(field.MultipleGradient.begin() + from * emitters, emitters,
+    field.MultipleGradient.begin() + to * emitters);
 }
 
 LightField Solver::Run()
@@ -89,6 +92,7 @@ LightField Solver::Run()
   this->Field_.DirectIlluminance.assign(bands * this->Field_.Patches * 2, 0.0F);
   this->Field_.MultipleIlluminance.assign(bands * this->Field_.Patches * 2, Lanes());
   const std::vector<EmitterCell>& cells = this->Scene_.Lights().Cells();
+  this->Field_.MultipleGradient.assign(bands * cells.size(), glm::vec3(0.0F));
   const bool shines =
     this->Scene_.Sky() > 0.0 ||
     std::any_of(cells.begin(), cells.end(),

@@ -54,6 +54,9 @@ struct LightField
   std::vector<float> DirectIlluminance;
   /// The rest of it, a value a batch: [band][patch][side].
   std::vector<Lanes> MultipleIlluminance;
+  /// Gradient of that over the front of each emitter cell, over its mean there [1/m]:
+  /// [band][emitter cell]. Empty: it is even.
+  std::vector<glm::vec3> MultipleGradient;
   /// What was done and what was left out.
   std::vector<WorkItem> Report;
   /// Cells in which light is scattered more than once on a mean way through them, of the band that
@@ -64,6 +67,14 @@ struct LightField
   std::size_t PatchIndex(int band, std::size_t patch, int side) const
   {
     return (band * this->Patches + patch) * 2 + side;
+  }
+  /// MultipleGradient of the front of any patch [1/m].
+  Vec3 GradientOn(int band, std::size_t patch) const
+  {
+    const std::size_t emitters = this->MultipleGradient.size() / this->Bands;
+    const std::size_t surfaces = this->Patches - emitters;
+    return patch < surfaces ? Vec3(0.0)
+                            : Vec3(this->MultipleGradient[band * emitters + patch - surfaces]);
   }
 };
 

@@ -26,11 +26,17 @@ constexpr double LargestShare = 0.02;
 /// Rays of a batch: first, and most.
 constexpr int FirstRays = 32;
 constexpr int MostRays = 2048;
+/// Of a batch from each place of a course: most.
+constexpr int MostCourseRays = 128;
 /// A sign of more cells gathers for those that are to be bright and for the others alone.
 constexpr std::size_t MostOwnCells = 16;
 /// How far before a plate its rays begin: the smoke between is missing, where its light is
 /// brightest.
 constexpr double LiftTolerances = 2.0;
+/// Streams of random numbers.
+constexpr std::uint64_t FirstStream = 0;
+constexpr std::uint64_t WholeStream = 1;
+constexpr std::uint64_t CourseStream = 2;
 /// Places by which it is told whether any of a plate is free.
 constexpr int Trials = 64;
 
@@ -114,11 +120,7 @@ std::pair<std::size_t, std::size_t> PlateGather::Run(Team& team, const Progress&
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     rays += results[i].Rays;
-    for (const std::size_t cell : tasks[i].Cells)
-    {
-      this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
-        this->Band_, this->Scene_.SurfacePatches() + cell, 0)] = results[i].Illuminance;
-    }
+    this->Keep(tasks[i], results[i]);
   }
   return {plates, rays};
 }
@@ -131,21 +133,21 @@ void PlateGather::AddTasks(std::size_t index, std::vector<Task>& tasks) const
     { return this->Scene_.Lights().Cells()[cell].Luminance[this->Band_] > 0.0; });
   if (!emits)
   {
-    tasks.push_back({index, sign.Cells});
+    tasks.push_back({index, sign.Cells, true});
     return;
   }
   if (sign.Cells.size() <= MostOwnCells)
   {
     for (const std::size_t cell : sign.Cells)
     {
-      tasks.push_back({index, {cell}});
+      tasks.push_back({index, {cell}, false});
     }
     return;
   }
   const std::vector<bool> lit = LitCells(this->Scene_.Lights(), sign);
   for (const bool bright : {true, false})
   {
-    Task task{index, {}};
+    Task task{index, {}, false};
     std::copy_if(sign.Cells.begin(), sign.Cells.end(), std::back_inserter(task.Cells),
       [&](std::size_t cell) { return lit[cell] == bright; });
     if (!task.Cells.empty())
@@ -220,8 +222,7 @@ PlateGather::Result PlateGather::Gather(
     {
       // Even over what is free of the plate, and over directions by their cosine. All cells of a
       // sign draw the same, so that their noise is much the same and no pattern.
-      const std::uint64_t key =
-        Mix(Mix(this->Options_.Seed + 0x51A7EULL * (index + 1)) + Batches * stream + batch);
+      const std::uint64_t key = this->Key(index, stream, batch);
       const EvenPoints points(key);
       double sum = 0.0;
       int used = 0;
@@ -245,12 +246,77 @@ PlateGather::Result PlateGather::Gather(
   };
   // The first rays only tell how many it takes: to stop where batches happen to agree would favour
   // those that missed what is rare and bright.
-  const Lanes first = gather(0, FirstRays);
+  const Lanes first = gather(FirstStream, FirstRays);
   const double wanted = this->Options_.Tolerance * (Mean(first) + direct);
   const double error = StandardError(first);
   const double rays = error > wanted ? FirstRays * std::pow(error / wanted, 2) : FirstRays;
-  result.Illuminance = gather(1, static_cast<int>(std::min<double>(rays, MostRays)));
+  const int used = static_cast<int>(std::min<double>(rays, MostRays));
+  result.Illuminance = gather(WholeStream, used);
+  if (!partly && task.Whole)
+  {
+    const int own = std::min(used, MostCourseRays);
+    result.Course = this->FindCourse(index, indirect, own, progress);
+    result.Rays += Batches * PlateCourse::Places * own;
+  }
   return result;
+}
+
+PlateCourse PlateGather::FindCourse(
+  std::size_t index, const IndirectLight& indirect, int rays, const Progress& progress) const
+{
+  const Sign& sign = this->Scene_.Lights().Signs()[index];
+  const Vec3 tangent = glm::normalize(sign.Corners[1] - sign.Corners[0]);
+  const Vec3 lift = LiftTolerances * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  std::array<DoubleLanes, PlateCourse::Places> light{};
+  for (int batch = 0; batch < Batches && !progress.ShouldStop(); ++batch)
+  {
+    // From all places the same way, so that their noise is much the same.
+    const std::uint64_t key = this->Key(index, CourseStream, batch);
+    const EvenPoints points(key);
+    for (int ray = 0; ray < rays; ++ray)
+    {
+      const auto random = points.Point(ray);
+      const Vec3 direction = LambertianDirection(sign.Normal, tangent, random[2], random[3]);
+      for (std::size_t place = 0; place < PlateCourse::Places; ++place)
+      {
+        light[place][batch] += indirect.Radiance(
+          PlateCourse::Place(sign, place) + lift, direction, ToUnit(Mix(key + ray)), batch);
+      }
+    }
+  }
+  return PlateCourse(light);
+}
+
+void PlateGather::Keep(const Task& task, const Result& result)
+{
+  const Sign& sign = this->Scene_.Lights().Signs()[task.Sign];
+  std::vector<PlateCourse::CellLight> lights;
+  if (task.Whole)
+  {
+    lights = result.Course.Cells(this->Scene_.Lights(), sign);
+  }
+  for (std::size_t i = 0; i < task.Cells.size(); ++i)
+  {
+    Lanes& illuminance = this->Field_.MultipleIlluminance[this->Field_.PatchIndex(
+      this->Band_, this->Scene_.SurfacePatches() + task.Cells[i], 0)];
+    illuminance = result.Illuminance;
+    if (!task.Whole)
+    {
+      continue;
+    }
+    for (int batch = 0; batch < Batches; ++batch)
+    {
+      illuminance[batch] = static_cast<float>(lights[i].Share[batch] * illuminance[batch]);
+    }
+    const std::size_t emitters = this->Scene_.Lights().Cells().size();
+    this->Field_.MultipleGradient[this->Band_ * emitters + task.Cells[i]] =
+      glm::vec3(lights[i].Gradient);
+  }
+}
+
+std::uint64_t PlateGather::Key(std::size_t sign, std::uint64_t stream, int batch) const
+{
+  return Mix(Mix(this->Options_.Seed + 0x51A7EULL * (sign + 1)) + Batches * stream + batch);
 }
 
 } // namespace smokevis

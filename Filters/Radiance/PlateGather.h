@@ -2,9 +2,11 @@
 #pragma once
 
 #include "LightField.h"
+#include "PlateCourse.h"
 #include "Scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -17,10 +19,10 @@ class Team;
 
 /// Gathers the indirect illuminance of small signs that reflect. Random lines meet them too rarely,
 /// and the cells of their pattern more rarely still, so that noise would pass for a pattern.
-/// Indirect light varies little over a plate that is small against the scene, so that the cells of
-/// a sign that only reflects share one value. Smoke glows before what is lit: each cell of a
-/// luminous sign has a value of its own, or of one of many cells those that are to be bright have
-/// one and the others another.
+/// Indirect light varies smoothly over a plate that is small against the scene, so that the cells
+/// of a sign that only reflects share one value, and a course over the plate. Smoke glows before
+/// what is lit: each cell of a luminous sign has a value of its own, or of one of many cells those
+/// that are to be bright have one and the others another.
 class PlateGather
 {
 public:
@@ -39,8 +41,12 @@ private:
   {
     std::size_t Sign;
     std::vector<std::size_t> Cells;
+    /// Whether these are all of a sign that only reflects.
+    bool Whole;
   };
   bool Wanted(const Sign& sign) const;
+  /// Of the random numbers of a sign.
+  std::uint64_t Key(std::size_t sign, std::uint64_t stream, int batch) const;
   void AddTasks(std::size_t index, std::vector<Task>& tasks) const;
   /// Whether backs of surfaces are all that is seen from before a place: it is in a solid that a
   /// part of the sign is sunk into.
@@ -48,9 +54,14 @@ private:
   struct Result
   {
     Lanes Illuminance;
+    /// Over the whole sign.
+    PlateCourse Course;
     std::size_t Rays = 0;
   };
   Result Gather(const Task& task, const IndirectLight& indirect, const Progress& progress) const;
+  PlateCourse FindCourse(
+    std::size_t sign, const IndirectLight& indirect, int rays, const Progress& progress) const;
+  void Keep(const Task& task, const Result& result);
 
   const Scene& Scene_;
   const LightFieldOptions& Options_;

@@ -322,15 +322,26 @@ Spectrum View::DirectIlluminance(const Vec3& point, const Vec3& normal) const
   return direct;
 }
 
-const Lanes& View::MultipleIlluminance(std::size_t patch, int side, int band) const
+Lanes View::MultipleIlluminance(std::size_t patch, int side, const Vec3& point, int band) const
 {
-  return this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
+  Lanes lanes = this->Field_->MultipleIlluminance[this->Field_->PatchIndex(band, patch, side)];
+  const Vec3 gradient = this->Field_->GradientOn(band, patch);
+  if (side == 0 && gradient != Vec3(0.0))
+  {
+    const Vec3 centre = this->Scene_->Lights().CellCentre(patch - this->Scene_->SurfacePatches());
+    const double share = std::max(0.0, 1.0 + glm::dot(gradient, point - centre));
+    for (float& value : lanes.Value)
+    {
+      value *= static_cast<float>(share);
+    }
+  }
+  return lanes;
 }
 
 double View::Illuminance(
   std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band, Lanes& lanes) const
 {
-  lanes = this->MultipleIlluminance(patch, side, band);
+  lanes = this->MultipleIlluminance(patch, side, point, band);
   return std::max(0.0, this->DirectIlluminance(point, normal)[band] + Mean(lanes));
 }
 

@@ -91,8 +91,8 @@ public:
 
   /// Illuminance at a point of a surface with a unit normal, straight from lights [lx].
   Spectrum DirectIlluminance(const Vec3& point, const Vec3& normal) const;
-  /// Batches of the multiply scattered illuminance of a side of a patch [lx].
-  const Lanes& MultipleIlluminance(std::size_t patch, int side, int band) const;
+  /// Batches of the multiply scattered illuminance at a point of a side of a patch [lx].
+  Lanes MultipleIlluminance(std::size_t patch, int side, const Vec3& point, int band) const;
   /// Illuminance at a point of a side of a patch [lx].
   /// @param lanes receives the batches of what is multiply scattered of it
   double Illuminance(std::size_t patch, int side, const Vec3& point, const Vec3& normal, int band,

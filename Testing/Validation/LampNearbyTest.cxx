@@ -17,7 +17,8 @@ using namespace smokevis;
 
 // A sign that only reflects, 0.4 m below a lamp, which lights one end more than the other. Without
 // what differs inside the blocks that the sign is seen in the contrast would come out 0.004 lower.
-// What comes by way of smoke is the same all over it: that leaves it up to 0.006 too low.
+// What comes by way of smoke varies less: were it the same all over the sign, the contrast would be
+// up to 0.006 too low.
 TEST(LampNearby, AboveASignThatReflects)
 {
   report::Head("Contrast of signs that reflect, 0.4 m below a lamp");
@@ -53,6 +54,32 @@ TEST(LampNearby, AboveASignThatReflects)
       reference.Mean, sign.Contrast, each.Albedo > 0.0 ? 0.003 : 0.001,
       std::hypot(reference.StandardError, sign.ContrastError));
   }
+}
+
+// A sign that only reflects, 0.3 m beside a lamp that shines away from it: smoke and walls alone
+// light it, one end almost three times as much as the other. Were its light even, its contrast
+// would come out at 0.28. What is left is 3 %: the smoke between a sign and a lamp so close is
+// brighter than its cells tell.
+TEST(LampNearby, SignLitByTheSmokeBesideALamp)
+{
+  report::Head("Contrast of a sign that smoke and walls light, beside a lamp");
+  SceneDescription scene;
+  scene.Albedo = 0.6;
+  scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 3}, {24, 16, 12}, 0.3)};
+  scenes::AddRoom(scene.Surfaces, Vec3(0.0), {6, 4, 3}, 0.25, 0.3);
+  scene.Emitters = scenes::Barcode({5.7, 2, 2}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 0.0, 0, 0.05);
+  for (std::size_t cell = 0; cell < scene.Emitters.size(); cell += 2)
+  {
+    scene.Emitters[cell].Reflectance.fill(0.8);
+  }
+  scene.Emitters.push_back(
+    scenes::Plate({5.65, 2.6, 2.0}, {-1, 0, 0}, {0, 0, 1}, 0.3, 0.2, 3000.0));
+  const Solved solved(scene, 0.03);
+  const Vec3 eye(1, 2, 1.7);
+  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
+  const Estimate reference = MeasureByPaths(*solved.TheScene, eye, 3000).Contrast;
+  report::Absolute("contrast", reference.Mean, sign.Contrast, 0.015,
+    std::hypot(reference.StandardError, sign.ContrastError));
 }
 
 // What the smoke throws back on the dark bars of a sign, to which it glows less than to the lit
