@@ -23,10 +23,6 @@ constexpr std::size_t MostPatchBlocks = 64;
 /// to a share of next to nothing.
 constexpr double DarkShare = 0.1;
 
-/// Standard errors that a drift must be above 0 to be taken for one: window after window is asked,
-/// so that one would be too few.
-constexpr double LowerDeviations = 2.5;
-
 double MeanOf(const std::vector<double>& values)
 {
   double sum = 0.0;
@@ -230,8 +226,7 @@ BlockMeans::Drift BlockMeans::DriftSince(const BlockMeans& earlier, double resol
   // Blocks drift together: how far noise moves the estimate is told by a jackknife over batches.
   const double deviation = (Batches - 1.0) * std::sqrt(VarianceOf(without, MeanOf(without)));
   const auto root = [weights](double value) { return std::sqrt(std::max(0.0, value) / weights); };
-  return {root(square - LowerDeviations * deviation), root(square),
-    root(std::max(0.0, square) + deviation)};
+  return {root(square), root(std::max(0.0, square) + deviation)};
 }
 
 } // namespace smokevis

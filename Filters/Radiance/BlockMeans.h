@@ -30,12 +30,16 @@ public:
   /// where a block lies in the dark).
   struct Drift
   {
-    /// Noise taken out; below the lower bound noise would hardly have taken it, and the upper one
-    /// is a standard error above it.
-    double LowerBound = 0.0;
+    /// Noise taken out; the bound is a standard error above it.
     double Estimate = 0.0;
     double UpperBound = 0.0;
 
+    /// Whether it is above a limit, by so many standard errors of its square.
+    bool Exceeds(double limit, double errors) const
+    {
+      const double square = this->Estimate * this->Estimate;
+      return square - errors * (this->UpperBound * this->UpperBound - square) > limit * limit;
+    }
     /// Whether its square is less than a standard error of that.
     bool IsNoise() const
     {

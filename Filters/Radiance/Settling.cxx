@@ -39,6 +39,10 @@ constexpr double DriftShare = 0.7;
 /// Share of that which noise may hide where next to no light is sent on any more that could drift:
 /// the mean over two windows has half the noise of their difference.
 constexpr double HiddenShare = 2.0;
+/// Standard errors that a drift must be above 0 to be taken for one: window after window is asked,
+/// so that one would be too few; and above its limit, to be taken for a light that never settles.
+constexpr double Deviations = 2.5;
+constexpr double CertainDeviations = 5.0;
 /// A window shows of what has yet to settle the share that its sweeps do not send on any more, or
 /// this at least: what thick cells send to themselves is sent on, too, but waits for no sweeps.
 constexpr double LeastShown = 0.2;
@@ -64,8 +68,18 @@ Settling::Settling(const Scene& scene, const LightField& field, int band, double
   BatchSweeps& sweeps)
     : Scene_(scene), Field_(field), Band_(band), Tolerance_(tolerance),
       Limit_(DriftShare * tolerance), Uncounted_(UncountedShare * Limit_), Balance_(balance),
-      Probes_(probes), Arena_(arena), Sweeps_(sweeps)
+      LargestSent_(LargestSent()), Probes_(probes), Arena_(arena), Sweeps_(sweeps)
 {
+}
+
+double Settling::LargestSent() const
+{
+  double largest = this->Scene_.Smoke().Empty() ? 0.0 : this->Scene_.Albedo();
+  for (std::size_t patch = 0; patch < this->Field_.Patches; ++patch)
+  {
+    largest = std::max(largest, this->Scene_.PatchReflectance(patch)[this->Band_]);
+  }
+  return largest;
 }
 
 double Settling::Kept(double sent) const
@@ -180,9 +194,14 @@ void Settling::Complete()
 
 Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& window) const
 {
+  if (std::pow(this->Kept(this->LargestSent_), window.Before) < this->Uncounted_ * this->Darkest_)
+  {
+    // Nothing to speak of has yet to build up anywhere: noise alone differs, however much.
+    return {.Drifts = false, .Tolerable = true, .Settled = true};
+  }
   Verdict verdict;
   const double shown = std::max(LeastShown, 1.0 - std::pow(this->Kept(window.Sent), window.Sweeps));
-  verdict.Drifts = drift.LowerBound > 0.0;
+  verdict.Drifts = drift.Exceeds(0.0, Deviations);
   verdict.Tolerable = drift.UpperBound < this->Limit_ * shown ||
                       (window.Over && !verdict.Drifts && drift.Estimate < this->Limit_ * shown &&
                         drift.UpperBound < HiddenShare * this->Limit_);
@@ -202,7 +221,7 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
 
 void Settling::ExpectSmall(const BlockMeans::Drift& drift) const
 {
-  if (drift.LowerBound >= this->Limit_)
+  if (drift.Exceeds(this->Limit_, CertainDeviations))
   {
     throw Error("light field",
       "the light did not settle in " + std::to_string(this->Sweeps_.Done()) + " sweeps",

@@ -58,6 +58,8 @@ private:
     bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
   };
 
+  /// Largest share of light that anything in the scene sends on.
+  double LargestSent() const;
   /// Share of what light lacks that it still lacks a sweep later.
   /// @param sent share of the light that is sent on again
   double Kept(double sent) const;
@@ -93,6 +95,7 @@ private:
   double Lasting_ = 0.0;
   bool Balanced_ = false;
   const PowerBalance& Balance_;
+  double LargestSent_;
   const VeilProbes& Probes_;
   tbb::task_arena& Arena_;
   BatchSweeps& Sweeps_;

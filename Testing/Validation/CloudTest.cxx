@@ -64,7 +64,7 @@ void CheckCloud(int cells, double tolerance)
 }
 
 // In cells of one mean free path linear sources are right to about 3 % sixteen of them deep.
-TEST(Cloud, InMuchClearAir)
+TEST(Cloud, InMuchClearAirLong)
 {
   CheckCloud(32, 0.03);
 }
