@@ -1,5 +1,6 @@
 // What each thing that a scene does not need saves by being left out, and what that changes.
 #include "BenchmarkCases.h"
+#include "SkipComparison.h"
 
 #include "Sampler.h"
 
@@ -14,54 +15,8 @@ namespace
 {
 
 constexpr double SkipTolerance = 0.1;
-/// With and without by turns, so often; the shortest of each counts.
-constexpr int Turns = 3;
 /// Contrasts below this count as so large: nobody sees them.
 constexpr double LeastContrast = 0.01;
-
-/// Values that are held against each other.
-using Values = std::vector<double>;
-
-/// Largest difference over the reference value, of values that are at least a millionth of the
-/// largest.
-double LargestDifference(const Values& values, const Values& reference)
-{
-  double largest = 0.0;
-  for (const double value : reference)
-  {
-    largest = std::max(largest, value);
-  }
-  double worst = 0.0;
-  for (std::size_t i = 0; i < reference.size(); ++i)
-  {
-    if (reference[i] > 1e-6 * largest)
-    {
-      worst = std::max(worst, std::abs(values[i] - reference[i]) / reference[i]);
-    }
-  }
-  return worst;
-}
-
-/// Runs a case with and without a skip by turns and writes its row. Of random results only their
-/// sum is compared.
-void Compare(ResultTable& table, const std::string& skip, const std::string& scene,
-  const std::function<Values(bool)>& run)
-{
-  std::array<double, 2> seconds{};
-  std::array<Values, 2> values;
-  for (int turn = 0; turn < Turns; ++turn)
-  {
-    for (const bool skips : {true, false})
-    {
-      const StopWatch watch;
-      values[skips ? 0 : 1] = run(skips);
-      double& shortest = seconds[skips ? 0 : 1];
-      shortest = turn == 0 ? watch.Processors() : std::min(shortest, watch.Processors());
-    }
-  }
-  table.Row({skip, scene, Number(seconds[0]), Number(seconds[1]), Number(seconds[1] / seconds[0]),
-    Number(LargestDifference(values[0], values[1]))});
-}
 
 LightField SolveWith(const Scene& scene, bool skips)
 {
@@ -213,16 +168,8 @@ void SkipClearAir(ResultTable& table, const Settings& settings)
 
 void SkipSteps(ResultTable& table)
 {
+  CompareSteps(table);
   SceneDescription description = Corridor(0.3, 4, 0.5, 0.5);
-  description.Surfaces = {};
-  scenes::AddRoom(description.Surfaces, Vec3(0.0), {60, 4, 4}, 0.5, 0.5);
-  const Scene scene(description);
-  const LightField solved = SolveWith(scene, true);
-  const SceneDescription same = description;
-  Compare(table, "unchanged time step", "corridor of 60 m with 4000 wall patches",
-    [&](bool skips) {
-      return Direct(scene, skips && same == description ? solved : SolveWith(Scene(same), true));
-    });
   description.Surfaces = {};
   scenes::AddRoom(description.Surfaces, Vec3(0.0), {60, 4, 4}, 0.1, 0.5);
   const Scene fine(description);
@@ -270,11 +217,34 @@ void SkipSigns(ResultTable& table, const Settings& settings)
   };
   compare("veil behind smoke that hides it", {.HiddenSmoke = false});
   compare("looks at parts of signs that nothing hides", {.Looks = false});
-  Compare(table, "signs that face away", "the same",
+}
+
+void SkipSignsFacingAway(ResultTable& table, const Settings& settings)
+{
+  SceneDescription scene = Corridor(0.3, 4, 0.5, 0.5);
+  constexpr int Pairs = 5;
+  constexpr double Apart = 10.0;
+  for (int sign = 0; sign < 2 * Pairs; ++sign)
+  {
+    const double side = sign % 2 == 0 ? -1.0 : 1.0;
+    const Vec3 centre(Apart * (sign / 2 + 1) + 0.05 * side, 2.0, 2.5);
+    const auto cells =
+      scenes::Barcode(centre, {side, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 200.0, sign, 0.1);
+    scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
+  }
+  const Solution corridor = Solve(scene, SkipTolerance, 1, settings.Threads);
+  FloorMapOptions places;
+  places.FirstPlace = {0.5, 0.5, 1.7};
+  places.StepX = 3.0;
+  places.PlacesX = 20;
+  places.PlacesY = 4;
+  places.Threads = settings.Threads;
+  Progress progress;
+  Compare(table, "signs that face away", "corridor with ten signs back to back: map of 20 x 4",
     [&](bool skips)
     {
       places.SkipsAway = skips;
-      const FloorMap map = ComputeFloorMap(*hall.TheView, places, progress);
+      const FloorMap map = ComputeFloorMap(*corridor.TheView, places, progress);
       return Values(map.Visibility.begin(), map.Visibility.end());
     });
 }
@@ -290,6 +260,7 @@ void RunSkips(const Settings& settings)
   SkipClearAir(table, settings);
   SkipSteps(table);
   SkipSigns(table, settings);
+  SkipSignsFacingAway(table, settings);
 }
 
 } // namespace smokevis::benchmark

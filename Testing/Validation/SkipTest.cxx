@@ -334,4 +334,30 @@ TEST(Skip, EqualBands)
     std::hypot(StandardError(one), StandardError(other)));
 }
 
+// Bands that differ in one place alone are none for each other: a patch far from all light that
+// sends back a little more of one, a lamp a million times weaker than the others, and smoke that
+// dims one by a millionth more.
+TEST(Skip, BandsThatDifferInOnePlace)
+{
+  SceneDescription grey = scenes::Corridor(0.3, 2, 0.5, 0.5);
+  grey.Bands = 3;
+  EXPECT_EQ(Solve(grey, true).Count("band 1 skipped"), 1.0);
+  SceneDescription patch = grey;
+  patch.Surfaces.CellReflectance.back()[1] += 1e-6;
+  SceneDescription lamp = grey;
+  lamp.Emitters.push_back(scenes::Plate({59.0, 2.0, 3.99}, {0, 0, -1}, {1, 0, 0}, 0.1, 0.1, 1e-3));
+  lamp.Emitters.back().Luminance[1] = 0.9e-3;
+  SceneDescription smoke = grey;
+  smoke.ExtinctionScale[1] = 1.000001;
+  for (const SceneDescription* const scene : {&patch, &lamp, &smoke})
+  {
+    const Outcome skipping = Solve(*scene, true);
+    EXPECT_EQ(skipping.Count("band 1 skipped"), 0.0);
+    EXPECT_EQ(skipping.Count("band 2 skipped"), 1.0);
+    // Band 1 has noise of its own.
+    const std::size_t cell = skipping.Field->CellIndex(1, 0);
+    EXPECT_NE(skipping.Field->MultipleFluence[cell][0], skipping.Field->MultipleFluence[0][0]);
+  }
+}
+
 } // namespace
