@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -16,12 +17,48 @@ namespace
 {
 
 using namespace smokevis;
+using std::numbers::pi;
 
 /// Layers so thin that a flat source inside each errs by less than 1e-3 (its error is second order
 /// in the layer's optical thickness, and next to the walls the fluence falls steeply).
 int LayersFor(double opticalDepth)
 {
   return std::max(15, 2 * static_cast<int>(std::ceil(5.0 * opticalDepth)) + 1);
+}
+
+/// What arrives in the middle of a face from the slab, of all directions [lx].
+/// @param height of the face: 0 or 1
+Estimate FluenceFromSlab(const Solved& solved, double height)
+{
+  constexpr int Azimuths = 8;
+  const double into = height > 0.5 ? -1.0 : 1.0;
+  Estimate fluence;
+  int ray = 0;
+  // Over the cosine to the face's normal, from grazing to straight.
+  const auto add = [&](double cosine, double weight)
+  {
+    for (int i = 0; i < Azimuths; ++i, ++ray)
+    {
+      // Of places somewhat apart, whose noise is not the same.
+      const Vec3 eye(0.1 * (ray % 5 - 2), 0.1 * (ray % 7 - 3), height + 1e-5 * into);
+      const double azimuth = 2.0 * pi * (i + 0.31) / Azimuths;
+      const double sine = std::sqrt(1.0 - cosine * cosine);
+      const RayLight light =
+        solved.Trace({eye, {sine * std::cos(azimuth), sine * std::sin(azimuth), into * cosine}});
+      const double share = 2.0 * pi * weight / Azimuths;
+      fluence.Mean += share * light.Total();
+      fluence.StandardError += share * StandardError(light.TotalLanes());
+    }
+  };
+  // The rule's nodes lie on both sides of the middle of -1 to 1.
+  const auto& nodes = boost::math::quadrature::gauss<double, 30>::abscissa();
+  const auto& weights = boost::math::quadrature::gauss<double, 30>::weights();
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+  {
+    add(0.5 * (1.0 + nodes[node]), 0.5 * weights[node]);
+    add(0.5 * (1.0 - nodes[node]), 0.5 * weights[node]);
+  }
+  return fluence;
 }
 
 void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, double tolerance)
@@ -52,6 +89,14 @@ void CheckRow(const report::ReferenceTable& table, std::size_t row, int layers, 
   const double thickness = depth / layers;
   report::Relative(name + " Gmid", table.Number(row, "Gmid"), middle.Mean,
     tolerance + thickness * thickness / 24.0, middle.StandardError);
+  // Of the lit face half comes from the wall that lights it, of radiance 1 / pi. What comes out at
+  // grazing angles is that of the last layer's skin.
+  const Estimate lit = FluenceFromSlab(solved, 0.0);
+  report::Relative(
+    name + " G0", table.Number(row, "G0"), 2.0 + lit.Mean, 2.0 * tolerance, lit.StandardError);
+  const Estimate dark = FluenceFromSlab(solved, 1.0);
+  report::Relative(
+    name + " G1", table.Number(row, "G1"), dark.Mean, 2.0 * tolerance, dark.StandardError);
   const double absorbed = (1.0 - albedo) * depth;
   report::Absolute(name + " absorbed", table.Number(row, "absorbed"), absorbed * mean.Mean,
     tolerance * std::max(0.1, table.Number(row, "absorbed")), absorbed * mean.StandardError);
