@@ -30,7 +30,7 @@ int LayersFor(double opticalDepth)
 /// @param height of the face: 0 or 1
 Estimate FluenceFromSlab(const Solved& solved, double height)
 {
-  constexpr int Azimuths = 8;
+  constexpr int Azimuths = 2;
   const double into = height > 0.5 ? -1.0 : 1.0;
   Estimate fluence;
   int ray = 0;
@@ -51,8 +51,8 @@ Estimate FluenceFromSlab(const Solved& solved, double height)
     }
   };
   // The rule's nodes lie on both sides of the middle of -1 to 1.
-  const auto& nodes = boost::math::quadrature::gauss<double, 30>::abscissa();
-  const auto& weights = boost::math::quadrature::gauss<double, 30>::weights();
+  const auto& nodes = boost::math::quadrature::gauss<double, 16>::abscissa();
+  const auto& weights = boost::math::quadrature::gauss<double, 16>::weights();
   for (std::size_t node = 0; node < nodes.size(); ++node)
   {
     add(0.5 * (1.0 + nodes[node]), 0.5 * weights[node]);
@@ -283,7 +283,7 @@ double HalfSpaceReflectance(const std::string& albedo)
     h.push_back(table.Number(row, "H_w" + albedo));
   }
   const boost::math::interpolators::makima<std::vector<double>> curve(std::move(mu), std::move(h));
-  const double integral = boost::math::quadrature::gauss<double, 30>::integrate(
+  const double integral = boost::math::quadrature::gauss<double, 16>::integrate(
     [&curve](double x) { return x * curve(x); }, 0.0, 1.0);
   return 1.0 - 2.0 * std::sqrt(1.0 - std::stod(albedo)) * integral;
 }
