@@ -10,6 +10,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -26,14 +27,14 @@ inline vtkSmartPointer<vtkFloatArray> MakeArray(const char* name, int components
 }
 
 /// An array of the cells of a block.
-inline vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int components)
+/// @param names of its components, where it has three
+inline vtkSmartPointer<vtkFloatArray> AddArray(vtkDataSet& block, const char* name, int components,
+  const std::array<const char*, 3>& names = {"R", "G", "B"})
 {
   auto array = MakeArray(name, components, block.GetNumberOfCells());
-  if (components == MaxBands)
+  for (int component = 0; component < components && components == 3; ++component)
   {
-    array->SetComponentName(0, "R");
-    array->SetComponentName(1, "G");
-    array->SetComponentName(2, "B");
+    array->SetComponentName(component, names[component]);
   }
   block.GetCellData()->AddArray(array);
   return array;

@@ -89,7 +89,7 @@ void LoadPatches(const SurfaceBlock& block, std::size_t firstPatch, LightField& 
 void StoreGradients(const LightField& field, std::size_t first, int bands, vtkDataSet& block)
 {
   const std::size_t emitters = field.MultipleGradient.size() / field.Bands;
-  const auto gradient = AddArray(block, Gradient, bands * Axes);
+  const auto gradient = AddArray(block, Gradient, bands * Axes, {"X", "Y", "Z"});
   for (vtkIdType i = 0; i < block.GetNumberOfCells(); ++i)
   {
     for (int band = 0; band < bands; ++band)

@@ -271,13 +271,14 @@ void MultipleSolve::Band(int band)
   const double end = begin + SweepShare * part;
   std::optional<BatchSweeps> drawn;
   int settling = 0;
+  bool settled = false;
   const auto solve = [&](double from)
   {
     drawn.emplace(this->Field_, *sweep, Mix(this->Options_.Seed) + 0x100000ULL * (band + 1),
       this->Team_, this->Arena_, this->Progress_, BatchSweeps::ProgressSpan{from, end});
-    Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
+    settled = Settling(this->Scene_, this->Field_, band, this->Options_.Tolerance, balance, probes,
       this->Arena_, *drawn)
-      .Run();
+                .Run();
     settling = drawn->Done() - drawn->Counted();
     if (!drawn->Diverges())
     {
@@ -313,6 +314,11 @@ void MultipleSolve::Band(int band)
   this->Keep(band, name, sweeps);
   this->Gather(band, name, balance, sweeps);
   this->Tell(name, sweeps, settling, probes.RelativeError(sweeps.States()));
+  if (!settled)
+  {
+    this->Say(name + "light not known to have settled", 1.0,
+      "after most sweeps noise still hides whether it drifts by more than the tolerance");
+  }
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
     "cells of a mesh's mean size are crossed about 1.5 times, less often above a tolerance of "
     "0.03");

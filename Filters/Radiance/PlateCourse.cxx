@@ -1,5 +1,6 @@
 #include "PlateCourse.h"
 
+#include "PlateColumns.h"
 #include "Triangle.h"
 
 #include <algorithm>
@@ -19,33 +20,10 @@ double Weight(std::size_t place)
   return Weights3[place % Weights3.size()] * Weights3[place / Weights3.size()];
 }
 
-/// Coordinates on the rectangle around a sign.
-struct PlateFrame
-{
-  explicit PlateFrame(const Sign& sign) : Corner(sign.Corners[0])
-  {
-    const Vec3 along = sign.Corners[1] - sign.Corners[0];
-    const Vec3 up = sign.Corners[3] - sign.Corners[0];
-    this->PerAlong = along / glm::dot(along, along);
-    this->PerUp = up / glm::dot(up, up);
-  }
-  /// Shares of both edges.
-  std::array<double, 2> Shares(const Vec3& point) const
-  {
-    return {
-      glm::dot(point - this->Corner, this->PerAlong), glm::dot(point - this->Corner, this->PerUp)};
-  }
-
-  Vec3 Corner;
-  /// Gradients of the shares [1/m].
-  Vec3 PerAlong, PerUp;
-};
-
 /// Weights of the places in the mean over a polygon.
 std::array<double, PlateCourse::Places> WeightsIn(
   const std::vector<Vec3>& polygon, const Sign& sign)
 {
-  const PlateFrame frame(sign);
   std::array<double, PlateCourse::Places> weights{};
   double area = 0.0;
   for (std::size_t corner = 1; corner + 1 < polygon.size(); ++corner)
@@ -55,9 +33,10 @@ std::array<double, PlateCourse::Places> WeightsIn(
     // The middles of its edges stand for a triangle: exact for polynomials of degree 2.
     for (std::size_t edge = 0; edge < part.size(); ++edge)
     {
-      const auto [u, v] = frame.Shares(0.5 * (part[edge] + part[(edge + 1) % part.size()]));
-      const auto across = QuadraticWeights(u);
-      const auto up = QuadraticWeights(v);
+      const glm::dvec2 middle =
+        PlaceOnPlate(sign, 0.5 * (part[edge] + part[(edge + 1) % part.size()]));
+      const auto across = QuadraticWeights(middle.x);
+      const auto up = QuadraticWeights(middle.y);
       for (std::size_t place = 0; place < weights.size(); ++place)
       {
         weights[place] +=
@@ -67,7 +46,8 @@ std::array<double, PlateCourse::Places> WeightsIn(
   }
   for (double& weight : weights)
   {
-    weight /= area;
+    // Of a polygon that is none nothing is known.
+    weight = area > 0.0 ? weight / area : 0.0;
   }
   return weights;
 }
@@ -76,8 +56,7 @@ std::array<double, PlateCourse::Places> WeightsIn(
 
 Vec3 PlateCourse::Place(const Sign& sign, std::size_t place)
 {
-  return sign.Corners[0] + Nodes3[place % Nodes3.size()] * (sign.Corners[1] - sign.Corners[0]) +
-         Nodes3[place / Nodes3.size()] * (sign.Corners[3] - sign.Corners[0]);
+  return OnPlate(sign, Nodes3[place % Nodes3.size()], Nodes3[place / Nodes3.size()]);
 }
 
 PlateCourse::PlateCourse(const std::array<DoubleLanes, Places>& light)
@@ -153,19 +132,23 @@ std::vector<PlateCourse::CellLight> PlateCourse::Cells(
 
 Vec3 PlateCourse::GradientAt(const Vec3& point, const Sign& sign) const
 {
-  const PlateFrame frame(sign);
-  const auto [u, v] = frame.Shares(point);
-  const auto across = QuadraticWeights(u);
-  const auto up = QuadraticWeights(v);
-  const auto acrossSlopes = QuadraticSlopes(u);
-  const auto upSlopes = QuadraticSlopes(v);
+  const glm::dvec2 at = PlaceOnPlate(sign, point);
+  const auto across = QuadraticWeights(at.x);
+  const auto up = QuadraticWeights(at.y);
+  const auto acrossSlopes = QuadraticSlopes(at.x);
+  const auto upSlopes = QuadraticSlopes(at.y);
+  // Of the shares of both edges.
+  const Vec3 along = sign.Corners[1] - sign.Corners[0];
+  const Vec3 upwards = sign.Corners[3] - sign.Corners[0];
+  const Vec3 perAlong = along / glm::dot(along, along);
+  const Vec3 perUp = upwards / glm::dot(upwards, upwards);
   Vec3 gradient(0.0);
   for (std::size_t place = 0; place < Places; ++place)
   {
     const std::size_t column = place % across.size();
     const std::size_t row = place / across.size();
-    gradient += Mean(this->Excess_[place]) * (acrossSlopes[column] * up[row] * frame.PerAlong +
-                                               across[column] * upSlopes[row] * frame.PerUp);
+    gradient += Mean(this->Excess_[place]) * (acrossSlopes[column] * up[row] * perAlong +
+                                               across[column] * upSlopes[row] * perUp);
   }
   return gradient;
 }

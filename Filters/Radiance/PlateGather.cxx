@@ -186,6 +186,18 @@ bool PlateGather::Sunk(const Sign& sign, const Vec3& place) const
   return this->Scene_.Shapes().SeesBacks(place, directions);
 }
 
+bool PlateGather::SeesAll(const Sign& sign) const
+{
+  const Vec3 lift = LiftTolerances * this->Scene_.Shapes().Tolerance() * sign.Normal;
+  bool free = std::all_of(sign.Cells.begin(), sign.Cells.end(),
+    [&](std::size_t cell) { return this->Scene_.Lights().InOnePlane(cell, sign.Cells.front()); });
+  for (std::size_t place = 0; place < PlateCourse::Places && free; ++place)
+  {
+    free = !this->Sunk(sign, PlateCourse::Place(sign, place) + lift);
+  }
+  return free;
+}
+
 PlateGather::Result PlateGather::Gather(
   const Task& task, const IndirectLight& indirect, const Progress& progress) const
 {
@@ -252,7 +264,7 @@ PlateGather::Result PlateGather::Gather(
   const double rays = error > wanted ? FirstRays * std::pow(error / wanted, 2) : FirstRays;
   const int used = static_cast<int>(std::min<double>(rays, MostRays));
   result.Illuminance = gather(WholeStream, used);
-  if (!partly && task.Whole)
+  if (!partly && task.Whole && this->SeesAll(sign))
   {
     const int own = std::min(used, MostCourseRays);
     result.Course = this->FindCourse(index, indirect, own, progress);

@@ -51,6 +51,9 @@ private:
   /// Whether backs of surfaces are all that is seen from before a place: it is in a solid that a
   /// part of the sign is sunk into.
   bool Sunk(const Sign& sign, const Vec3& place) const;
+  /// Whether the light at all places of its course is that on the sign: its cells are in one plane,
+  /// and nowhere in the rectangle around it is there a solid.
+  bool SeesAll(const Sign& sign) const;
   struct Result
   {
     Lanes Illuminance;

@@ -40,7 +40,8 @@ constexpr double DriftShare = 0.7;
 /// the mean over two windows has half the noise of their difference.
 constexpr double HiddenShare = 2.0;
 /// Standard errors that a drift must be above 0 to be taken for one: window after window is asked,
-/// so that one would be too few; and above its limit, to be taken for a light that never settles.
+/// so that one would be too few; and above its limit, where it should be over, to be taken for a
+/// light that never settles.
 constexpr double Deviations = 2.5;
 constexpr double CertainDeviations = 5.0;
 /// A window shows of what has yet to settle the share that its sweeps do not send on any more, or
@@ -194,9 +195,9 @@ void Settling::Complete()
 
 Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& window) const
 {
-  if (std::pow(this->Kept(this->LargestSent_), window.Before) < this->Uncounted_ * this->Darkest_)
+  if (this->LargestSent_ < this->Uncounted_ * this->Darkest_)
   {
-    // Nothing to speak of has yet to build up anywhere: noise alone differs, however much.
+    // All that is sent on at all is too little: noise alone differs, however much.
     return {.Drifts = false, .Tolerable = true, .Settled = true};
   }
   Verdict verdict;
@@ -219,9 +220,9 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   return verdict;
 }
 
-void Settling::ExpectSmall(const BlockMeans::Drift& drift) const
+void Settling::ExpectSmall(const BlockMeans::Drift& drift, const Window& window) const
 {
-  if (drift.Exceeds(this->Limit_, CertainDeviations))
+  if (drift.Exceeds(this->Limit_, window.Over ? CertainDeviations : Deviations))
   {
     throw Error("light field",
       "the light did not settle in " + std::to_string(this->Sweeps_.Done()) + " sweeps",
@@ -230,7 +231,7 @@ void Settling::ExpectSmall(const BlockMeans::Drift& drift) const
   }
 }
 
-void Settling::Run()
+bool Settling::Run()
 {
   this->BuildUp();
   this->Complete();
@@ -243,7 +244,7 @@ void Settling::Run()
     this->Sweeps_.Draw(window.Sweeps);
     if (this->Sweeps_.Diverges())
     {
-      return;
+      return false;
     }
     this->Sweeps_.Follow();
     BlockMeans now(states, this->Scene_, this->Field_, this->Band_, this->Arena_);
@@ -262,13 +263,13 @@ void Settling::Run()
       if (most && !verdict.Settled)
       {
         // Noise may hide a small drift to the end, or feign one.
-        this->ExpectSmall(drift);
+        this->ExpectSmall(drift, window);
       }
       if (most || verdict.Settled)
       {
         this->Balance_.ExpectBalance(powers);
         slow.Stop(states);
-        return;
+        return verdict.Settled;
       }
     }
     summed = window.Over && !(earlier && verdict.Drifts);

@@ -30,8 +30,8 @@ public:
     BatchSweeps& sweeps);
 
   /// Leaves sums in the batches that all count, unless what completes them diverges. Throws Error
-  /// where light never settles.
-  void Run();
+  /// where light never settles. Returns whether it is known to have settled.
+  bool Run();
 
   /// Sweeps that may be drawn in all, for whatever reason.
   static constexpr int MostSweeps = 768;
@@ -78,7 +78,7 @@ private:
   void Complete();
   Verdict Judge(const BlockMeans::Drift& drift, const Window& window) const;
   /// Throws Error where a drift stands out of noise even now.
-  void ExpectSmall(const BlockMeans::Drift& drift) const;
+  void ExpectSmall(const BlockMeans::Drift& drift, const Window& window) const;
 
   const Scene& Scene_;
   const LightField& Field_;
@@ -95,6 +95,7 @@ private:
   double Lasting_ = 0.0;
   bool Balanced_ = false;
   const PowerBalance& Balance_;
+  /// LargestSent().
   double LargestSent_;
   const VeilProbes& Probes_;
   tbb::task_arena& Arena_;

@@ -59,6 +59,7 @@ assert len(blocks) == 2 and data.GetNumberOfPartitions(1) == 2 and data.GetNumbe
 # Light varies over the sign that only reflects, and is even on each cell of what shines.
 gradients = [cell_array(data.GetPartition(2, i), "MultipleIlluminanceGradient") for i in range(3)]
 assert all(gradient.shape[1] == 9 for gradient in gradients)
+assert data.GetPartition(2, 2).GetCellData().GetArray("Illuminance").GetComponentName(2) == "B"
 assert not gradients[0].any() and not gradients[1].any() and gradients[2].any()
 with tempfile.TemporaryDirectory() as folder:
     # Inline data: Debian 12's expat stumbles over raw appended data, ParaView's own default.

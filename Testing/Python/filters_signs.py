@@ -196,7 +196,7 @@ def check_reflecting_sign():
 
 def check_reflecting_sign_in_room():
     """Under indirect light alone: the parts keep the ratio of their reflectances, without noise
-    between them, because all cells of the plate share what arrives."""
+    between them, because light that varies no more than its noise counts as even."""
     walls = scenes.producer(scenes.box((6.0, 4.0, 3.0), 0.6, (0.0, -2.0, -1.5)), "Walls")
     sign = simple.ExitSign(Preset="ISO 3864", Center=[0.0, 0.0, 0.3], Width=0.4, Height=0.4)
     # The lamp shines away from the sign.

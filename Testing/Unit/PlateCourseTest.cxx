@@ -143,8 +143,8 @@ TEST(PlateCourse, LeavesNoiseOut)
         .Cells(lights, sign);
     kept += (Mean(steep[0].Share) - 1.0) / (-0.86 * 0.375) / Trials;
   }
-  // Of 8 values that differ by noise alone, the variance is twice its mean once in 24 times
-  // (chi-square of 8 degrees of freedom, 0.042 above 16).
+  // Of 8 values that differ by noise alone, the variance is 2 FewBatches^2 times its mean once in
+  // 66 times (chi-square of 8 degrees of freedom, 0.015 above 19).
   EXPECT_GT(even, 0.9 * Trials);
   EXPECT_LT(even, Trials);
   EXPECT_NEAR(kept, 1.0, 0.03);

@@ -120,6 +120,14 @@ SceneDescription Room()
     cell.SignId = sign < 2 ? sign : -1;
     scene.Emitters.push_back(cell);
   }
+  // One that only reflects, beside the lamp, which shines past it.
+  for (int half = 0; half < 2; ++half)
+  {
+    EmitterCell cell = Plate({0.01, 2.3, 1.3 + 0.1 * half}, {0, 0.4, 0}, {0, 0, 0.1}, 0.0);
+    cell.Reflectance.fill(half == 0 ? 0.8 : 0.1);
+    cell.SignId = 2;
+    scene.Emitters.push_back(cell);
+  }
   return scene;
 }
 
@@ -181,6 +189,7 @@ TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
   Progress progress;
   const LightField alone = SolveLightField(scene, options, progress);
   ASSERT_GT(Count(alone, "band 0: rays gathered by signs"), 0.0);
+  ASSERT_NE(alone.MultipleGradient.back(), glm::vec3(0.0F));
   ASSERT_GT(Count(alone, "band 2: counted sweeps"), 0.0);
   const double lines = Batches * Count(alone, "band 0: lines of a batch in all");
   const double sweeps =
@@ -201,6 +210,7 @@ TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
       EXPECT_TRUE(SameBits(alone.MultipleFluence, own.MultipleFluence));
       EXPECT_TRUE(SameBits(alone.DirectIlluminance, own.DirectIlluminance));
       EXPECT_TRUE(SameBits(alone.MultipleIlluminance, own.MultipleIlluminance));
+      EXPECT_TRUE(SameBits(alone.MultipleGradient, own.MultipleGradient));
       ASSERT_EQ(own.Report.size(), together[0].Report.size());
       for (std::size_t i = 0; i < own.Report.size(); ++i)
       {

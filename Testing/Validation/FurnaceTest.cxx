@@ -344,8 +344,8 @@ TEST(Furnace, AbsorbingSphere)
 }
 
 // In a cell of eleven mean free paths what comes to the wall is known so roughly that noise may
-// pass for light that goes on to drift, where next to none is sent on: that is no reason to give
-// up.
+// pass for light that goes on to drift, where next to none is sent on: that is no reason to refuse
+// the scene.
 TEST(Furnace, ThickSootBeforeDarkWallsSettles)
 {
   report::Head("Sphere of thick soot whose wall reflects next to nothing");

@@ -17,8 +17,7 @@ using namespace smokevis;
 
 // A sign that only reflects, 0.4 m below a lamp, which lights one end more than the other. Without
 // what differs inside the blocks that the sign is seen in the contrast would come out 0.004 lower.
-// What comes by way of smoke varies less: were it the same all over the sign, the contrast would be
-// up to 0.006 too low.
+// What comes by way of smoke varies less, which paths as few as these hardly tell.
 TEST(LampNearby, AboveASignThatReflects)
 {
   report::Head("Contrast of signs that reflect, 0.4 m below a lamp");

@@ -341,7 +341,21 @@ TEST(Skip, BandsThatDifferInOnePlace)
 {
   SceneDescription grey = scenes::Corridor(0.3, 2, 0.5, 0.5);
   grey.Bands = 3;
-  EXPECT_EQ(Solve(grey, true).Count("band 1 skipped"), 1.0);
+  // A plate that only reflects, right beside a lamp that shines past it.
+  EmitterCell plate = grey.Emitters.back();
+  for (Vec3& vertex : plate.Vertices)
+  {
+    vertex += Vec3(0.0, 0.35, 0.0);
+  }
+  plate.Luminance.fill(0.0);
+  plate.Reflectance.fill(0.8);
+  plate.SignId = 0;
+  grey.Emitters.push_back(plate);
+  const Outcome equal = Solve(grey, true);
+  EXPECT_EQ(equal.Count("band 1 skipped"), 1.0);
+  const std::size_t patch0 = equal.TheScene->SurfacePatches() + grey.Emitters.size() - 1;
+  EXPECT_NE(equal.Field->GradientOn(0, patch0), Vec3(0.0));
+  EXPECT_EQ(equal.Field->GradientOn(1, patch0), equal.Field->GradientOn(0, patch0));
   SceneDescription patch = grey;
   patch.Surfaces.CellReflectance.back()[1] += 1e-6;
   SceneDescription lamp = grey;
