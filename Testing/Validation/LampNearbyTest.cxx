@@ -9,11 +9,24 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace
 {
 
 using namespace smokevis;
+
+/// A barcode that only reflects and faces the low x side, every other bar white.
+std::vector<EmitterCell> ReflectingBars(const Vec3& centre, double width, double height, int bars)
+{
+  std::vector<EmitterCell> cells =
+    scenes::Barcode(centre, {-1, 0, 0}, {0, 0, 1}, width, height, bars, 0.0, 0, 0.05);
+  for (std::size_t cell = 0; cell < cells.size(); cell += 2)
+  {
+    cells[cell].Reflectance.fill(0.8);
+  }
+  return cells;
+}
 
 // A sign that only reflects, 0.4 m below a lamp, which lights one end more than the other. Without
 // what differs inside the blocks that the sign is seen in the contrast would come out 0.004 lower.
@@ -33,12 +46,7 @@ TEST(LampNearby, AboveASignThatReflects)
     scene.Albedo = each.Albedo;
     scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 3}, {24, 16, 12}, 0.3)};
     scenes::AddRoom(scene.Surfaces, Vec3(0.0), {6, 4, 3}, 0.25, each.Reflectance);
-    scene.Emitters =
-      scenes::Barcode({5.99, 2, 1.8}, {-1, 0, 0}, {0, 0, 1}, 0.4, 0.2, each.Bars, 0.0, 0, 0.05);
-    for (std::size_t cell = 0; cell < scene.Emitters.size(); cell += 2)
-    {
-      scene.Emitters[cell].Reflectance.fill(0.8);
-    }
+    scene.Emitters = ReflectingBars({5.99, 2, 1.8}, 0.4, 0.2, each.Bars);
     scene.Emitters.push_back(
       scenes::Plate({5.7, 2.0, 2.2}, {0.3, 0, -1}, {0, 1, 0}, 0.3, 0.1, 3000.0));
     const Solved solved(scene, 0.05);
@@ -66,11 +74,7 @@ TEST(LampNearby, SignLitByTheSmokeBesideALamp)
   scene.Albedo = 0.6;
   scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {6, 4, 3}, {24, 16, 12}, 0.3)};
   scenes::AddRoom(scene.Surfaces, Vec3(0.0), {6, 4, 3}, 0.25, 0.3);
-  scene.Emitters = scenes::Barcode({5.7, 2, 2}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 0.0, 0, 0.05);
-  for (std::size_t cell = 0; cell < scene.Emitters.size(); cell += 2)
-  {
-    scene.Emitters[cell].Reflectance.fill(0.8);
-  }
+  scene.Emitters = ReflectingBars({5.7, 2, 2}, 0.6, 0.3, 5);
   scene.Emitters.push_back(
     scenes::Plate({5.65, 2.6, 2.0}, {-1, 0, 0}, {0, 0, 1}, 0.3, 0.2, 3000.0));
   const Solved solved(scene, 0.03);
