@@ -69,7 +69,8 @@ TEST(Cloud, InMuchClearAirLong)
   CheckCloud(32, 0.03);
 }
 
-// In cells of two the light before the lamp comes out up to a tenth too bright, as README says.
+// In cells of two the light before the lamp comes out up to a tenth too bright, as the solver's
+// README says.
 TEST(Cloud, InCoarseCells)
 {
   CheckCloud(16, 0.1);

@@ -1,4 +1,5 @@
-// Lamps right beside signs, and in smoke as thick as its cells: what the README's limits say.
+// Lamps right beside signs, and in smoke as thick as its cells: what the solver's README
+// says of them.
 #include "Contrast.h"
 #include "RandomScenes.h"
 #include "ReferenceSign.h"

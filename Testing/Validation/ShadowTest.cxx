@@ -144,7 +144,7 @@ TEST(Shadows, StripOfALampHidden)
   report::Relative("power", solved.TheScene->Lights().Flux(0), solved.PowerBeforeBalance(), 0.002);
 }
 
-// What README's limits say: of a pole thinner than a cell, and of a luminous plate of tens of
+// What the solver's README says: of a pole thinner than a cell, and of a luminous plate of tens of
 // metres before patches that are as large.
 TEST(Shadows, PoleAndHugePlate)
 {
