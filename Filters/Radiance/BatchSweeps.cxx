@@ -16,6 +16,8 @@ namespace
 
 /// Share of what is left of the progress bar that a sweep takes.
 constexpr double ProgressRate = 0.02;
+/// Lines of a batch that are surveyed, about.
+constexpr std::size_t SurveyedLines = 4096;
 
 } // namespace
 
@@ -38,7 +40,7 @@ BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_
   }
 }
 
-void BatchSweeps::Draw(int sweeps, bool thin)
+void BatchSweeps::Draw(int sweeps, bool thin, std::vector<LineSurvey>* surveys)
 {
   for (const int end = this->Done_ + sweeps; this->Done_ < end;)
   {
@@ -51,7 +53,8 @@ void BatchSweeps::Draw(int sweeps, bool thin)
           {
             const std::size_t batch = this->Team_.OwnItem(i);
             this->Sweep_.Run(this->States_[batch], this->Tallies_.local(),
-              Mix(this->Key_ + this->Done_) + batch, thin, this->Progress_);
+              Mix(this->Key_ + this->Done_) + batch, thin, this->Progress_,
+              surveys ? &(*surveys)[batch] : nullptr);
           });
       });
     this->Progress_.ThrowIfStopped("light field");
@@ -74,6 +77,33 @@ void BatchSweeps::Draw(int sweeps, bool thin)
   {
     this->Arena_.execute([&] { this->Completion_->CompleteLatest(sweeps, this->States_); });
   }
+}
+
+std::size_t BatchSweeps::Aim(const std::vector<float>& weights)
+{
+  const std::size_t count = this->Sweep_.Lines();
+  const std::size_t every = 1 + count / SurveyedLines;
+  std::vector<LineSurvey> surveys(Batches, LineSurvey{weights, every, {}});
+  this->Draw(1, false, &surveys);
+  std::vector<Team::Part> parts;
+  std::vector<SurveyedLine> lines;
+  for (std::size_t batch = 0; batch < surveys.size(); ++batch)
+  {
+    surveys[batch].Lines.resize((count + every - 1) / every);
+    parts.push_back(Team::PartOf(
+      this->Team_.OwnerOf(batch), surveys[batch].Lines.data(), surveys[batch].Lines.size()));
+  }
+  this->Team_.Share(parts);
+  for (const LineSurvey& survey : surveys)
+  {
+    lines.insert(lines.end(), survey.Lines.begin(), survey.Lines.end());
+  }
+  const std::vector<NoisyBox> boxes = FindNoisyBoxes(lines, this->Sweep_.Outer(), count);
+  for (const NoisyBox& box : boxes)
+  {
+    this->Sweep_.AddLines(box);
+  }
+  return boxes.size();
 }
 
 double BatchSweeps::Reached() const

@@ -38,7 +38,12 @@ public:
   /// Draws so many sweeps more, after which all processes have the sums of all batches. Throws
   /// Error when the work is stopped.
   /// @param thin whether a share of the lines is enough
-  void Draw(int sweeps, bool thin = false);
+  void Draw(int sweeps, bool thin = false) { this->Draw(sweeps, thin, nullptr); }
+  /// Draws a whole sweep, of which further ones learn: they get more lines through boxes where
+  /// lines bring most of the noise.
+  /// @param weights as in LineSurvey
+  /// @return how many boxes
+  std::size_t Aim(const std::vector<float>& weights);
   /// Forgets the sums, not the latest estimates.
   void Restart();
   /// Lets the sources of the next sweeps vary inside the cells as the light does that the sums
@@ -61,6 +66,8 @@ public:
   std::size_t LinesABatch() const { return this->LinesABatch_; }
 
 private:
+  /// @param surveys one a batch, or none
+  void Draw(int sweeps, bool thin, std::vector<LineSurvey>* surveys);
   void ShareSums();
 
   LineSweep& Sweep_;

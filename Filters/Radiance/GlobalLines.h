@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/gtc/constants.hpp>
+
 namespace smokevis
 {
 
@@ -30,6 +32,9 @@ public:
     double Weight;
     /// A uniform random number of its own.
     double Random;
+
+    /// Of all lines there: so many lead through a unit of surface of a convex body [1/m2].
+    double Density() const { return glm::half_pi<double>() / this->Weight; }
   };
 
   GlobalLines(const Box& scene, std::size_t lines);

@@ -30,6 +30,13 @@ struct LineBuffers
     /// By how much the radiances of both directions together, where they come in, exceed the
     /// source.
     float Excess;
+
+    /// Integral of the radiance of both directions together over the length, less what is expected
+    /// of that radiance [cd/m].
+    float Brought(float expected) const
+    {
+      return this->Length * (this->Excess * this->Escape + (2.0F * this->Source - expected));
+    }
   };
 
   std::vector<Crossing> Crossings;

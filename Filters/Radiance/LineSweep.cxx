@@ -276,8 +276,21 @@ LineSweep::Holding LineSweep::HeldByWatched(const BatchState& state) const
   return held;
 }
 
+float LineSweep::SquareOf(const GlobalLines::Line& line, const LineTallies& tallies,
+  const LineBuffers& buffers, const std::vector<float>& weights) const
+{
+  float sum = 0.0F;
+  for (const LineBuffers::Piece& piece : buffers.Pieces)
+  {
+    const float change = static_cast<float>(line.Weight) * this->InverseVolume_[piece.Cell] *
+                         piece.Brought(tallies.Cells[piece.Cell].Expected);
+    sum += weights[piece.Cell] * change * change;
+  }
+  return sum;
+}
+
 void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
-  const Progress& progress) const
+  const Progress& progress, LineSurvey* survey) const
 {
   this->Prepare(state, tallies);
   const GlobalLines& lines = thin ? this->ThinLines_ : this->Lines_;
@@ -289,7 +302,13 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     {
       return;
     }
-    this->TraceLine(state, draw.Get(line), tallies, buffers);
+    const GlobalLines::Line drawn = draw.Get(line);
+    this->TraceLine(state, drawn, tallies, buffers);
+    if (survey && line % survey->Every == 0)
+    {
+      survey->Lines.push_back({drawn.Origin, drawn.Direction, static_cast<float>(drawn.Density()),
+        this->SquareOf(drawn, tallies, buffers, survey->Weights)});
+    }
   }
 
   const Holding held = this->HeldByWatched(state);

@@ -6,6 +6,7 @@
 #include "DiffusionBlocks.h"
 #include "GlobalLines.h"
 #include "LightField.h"
+#include "NoisyBoxes.h"
 #include "PatchGroups.h"
 #include "Scene.h"
 #include "SourceShape.h"
@@ -54,6 +55,16 @@ struct LineTallies
   double WatchedLost = 0.0, WatchedGained = 0.0;
   /// As in BatchState.
   std::vector<MetLight> AtSides, AtCells;
+};
+
+/// What some of a sweep's lines bring to the noise of the light in cells.
+struct LineSurvey
+{
+  /// What the square of a change of each cell's fluence counts [1/lx2].
+  const std::vector<float>& Weights;
+  /// One line in so many is surveyed.
+  std::size_t Every;
+  std::vector<SurveyedLine> Lines;
 };
 
 /// Draws lines of the uniform line measure, carries radiance along each in closed form through the
@@ -112,8 +123,14 @@ public:
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
   /// @param thin whether a share of the lines is enough
   /// @param tallies scratch
+  /// @param survey what some of the lines bring, if that is asked for
   void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
-    const Progress& progress) const;
+    const Progress& progress, LineSurvey* survey = nullptr) const;
+  /// Draws more lines from now on.
+  void AddLines(const NoisyBox& box)
+  {
+    this->Lines_.AddInner(box.Bounds, GlobalLines::AtLeast(box.Lines));
+  }
 
 private:
   /// Gives the sources of the cells their shapes.
@@ -132,6 +149,9 @@ private:
   {
     return thin ? static_cast<float>(this->ThinLines()) / static_cast<float>(this->Lines()) : 1.0F;
   }
+  /// Sum of the squares that a line which was just traced brings to cells, times what these count.
+  float SquareOf(const GlobalLines::Line& line, const LineTallies& tallies,
+    const LineBuffers& buffers, const std::vector<float>& weights) const;
   /// Tallies what light the line takes from watched places, and to them.
   void TallyWatched(
     const BatchState& state, double weight, const LineBuffers& buffers, LineTallies& tallies) const;

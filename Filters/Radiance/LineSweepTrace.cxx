@@ -188,8 +188,7 @@ void LineSweep::TraceLine(const BatchState& state, const GlobalLines::Line& line
   for (const LineBuffers::Piece& piece : buffers.Pieces)
   {
     LineTallies::Cell& cell = tallies.Cells[piece.Cell];
-    cell.Fluence +=
-      weight * piece.Length * (piece.Excess * piece.Escape + (2.0F * piece.Source - cell.Expected));
+    cell.Fluence += weight * piece.Brought(cell.Expected);
   }
   if (this->Watches())
   {

@@ -32,6 +32,8 @@ namespace
 
 /// Share of the tolerance that the standard error of the veil is brought down to.
 constexpr double ErrorShare = 0.5;
+/// Lines of all batches still to be traced from which on it pays to look for where they should go.
+constexpr double ManyLines = 2e6;
 /// Standard error of the light as a whole over itself above which nothing is known.
 constexpr double LargestError = 10.0;
 /// Share of the tolerance that light may be of which a bound shows that it is no more.
@@ -114,9 +116,24 @@ double MultipleSolve::LargestShare(int band, const VeilProbes& toSigns) const
   return std::max(share, anywhere.LargestShare(fluence, bound->Illuminance()));
 }
 
-void MultipleSolve::Refine(BatchSweeps& sweeps, const VeilProbes& probes) const
+std::size_t MultipleSolve::Aim(
+  const std::string& name, BatchSweeps& sweeps, const VeilProbes& probes)
+{
+  const std::size_t before = sweeps.Sweep().Lines();
+  const std::size_t boxes = sweeps.Aim(probes.Weights(sweeps.States()));
+  if (boxes > 0)
+  {
+    this->Say(name + "boxes that more lines lead through", static_cast<double>(boxes),
+      "they bring most of the noise: " + std::to_string(sweeps.Sweep().Lines() - before) +
+        " lines more a sweep and batch");
+  }
+  return boxes;
+}
+
+void MultipleSolve::Refine(const std::string& name, BatchSweeps& sweeps, const VeilProbes& probes)
 {
   const double wanted = ErrorShare * this->Options_.Tolerance;
+  bool aimed = false;
   for (double error = probes.RelativeError(sweeps.States());
        error > wanted && sweeps.Done() < Settling::MostSweeps;
        error = probes.RelativeError(sweeps.States()))
@@ -124,9 +141,23 @@ void MultipleSolve::Refine(BatchSweeps& sweeps, const VeilProbes& probes) const
     // The error falls with the root of the sweeps: as many as seem to be missing, at most as many
     // again.
     const double share = error / wanted;
-    const double missing = sweeps.Counted() * (std::min(2.0, share * share) - 1.0);
+    const int counted = sweeps.Counted();
+    const double missing = counted * (share * share - 1.0);
+    double next = std::min<double>(missing, counted);
+    const double lines = static_cast<double>(Batches * sweeps.Sweep().Lines());
+    if (!aimed && missing > counted && missing * lines > ManyLines)
+    {
+      aimed = true;
+      if (this->Aim(name, sweeps, probes) == 0)
+      {
+        continue;
+      }
+      // Sweeps before are noisier, and would count as much.
+      sweeps.Restart();
+      next = counted;
+    }
     sweeps.Draw(
-      std::clamp(static_cast<int>(std::ceil(missing)), 1, Settling::MostSweeps - sweeps.Done()));
+      std::clamp(static_cast<int>(std::ceil(next)), 1, Settling::MostSweeps - sweeps.Done()));
     // What few sweeps told of the shape of sources is alike in all batches: no error bar knows it.
     sweeps.Follow();
   }
@@ -282,7 +313,7 @@ void MultipleSolve::Band(int band)
     settling = drawn->Done() - drawn->Counted();
     if (!drawn->Diverges())
     {
-      this->Refine(*drawn, probes);
+      this->Refine(name, *drawn, probes);
     }
   };
   solve(begin);

@@ -38,8 +38,11 @@ private:
   /// Bound of the share of the direct light along lines of sight that all other light is.
   /// @param toSigns lines of sight to signs, or anywhere where there are none
   double LargestShare(int band, const VeilProbes& toSigns) const;
+  /// Draws a sweep, and more lines from now on where they bring most of the noise; returns through
+  /// how many boxes.
+  std::size_t Aim(const std::string& name, BatchSweeps& sweeps, const VeilProbes& probes);
   /// Draws sweeps until the error of the veil meets the tolerance; sources' shapes follow them.
-  void Refine(BatchSweeps& sweeps, const VeilProbes& probes) const;
+  void Refine(const std::string& name, BatchSweeps& sweeps, const VeilProbes& probes);
   /// Keeps the means of the sums. Where diffusion took away more light than there was, which is
   /// where next to none comes, none is left.
   void Keep(int band, const std::string& name, const BatchSweeps& sweeps);

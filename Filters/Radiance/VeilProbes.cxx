@@ -141,29 +141,58 @@ std::vector<Lanes> VeilProbes::LightOf(const std::vector<BatchState>& batches) c
   return lights;
 }
 
-double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
+std::vector<double> VeilProbes::Compared(const std::vector<Lanes>& lights) const
 {
-  const std::vector<Lanes> lights = this->LightOf(batches);
+  std::vector<double> means;
   double sum = 0.0;
   for (const Lanes& light : lights)
   {
-    sum += std::max(0.0, Mean(light));
+    means.push_back(std::max(0.0, Mean(light)));
+    sum += means.back();
   }
   const double floor =
     this->Floor_ + this->MeanShare_ * sum / static_cast<double>(this->Probes_.size());
+  for (double& mean : means)
+  {
+    mean += floor;
+  }
+  return means;
+}
+
+double VeilProbes::RelativeError(const std::vector<BatchState>& batches) const
+{
+  const std::vector<Lanes> lights = this->LightOf(batches);
+  const std::vector<double> compared = this->Compared(lights);
   double squares = 0.0;
   int used = 0;
-  for (const Lanes& light : lights)
+  for (std::size_t probe = 0; probe < lights.size(); ++probe)
   {
-    const double mean = std::max(0.0, Mean(light)) + floor;
-    if (mean > 0.0)
+    if (compared[probe] > 0.0)
     {
-      const double relative = StandardError(light) / mean;
+      const double relative = StandardError(lights[probe]) / compared[probe];
       squares += relative * relative;
       ++used;
     }
   }
   return used > 0 ? std::sqrt(squares / used) : 0.0;
+}
+
+std::vector<float> VeilProbes::Weights(const std::vector<BatchState>& batches) const
+{
+  std::vector<float> weights(batches.front().FluenceSum.size(), 0.0F);
+  const std::vector<double> compared = this->Compared(this->LightOf(batches));
+  for (std::size_t probe = 0; probe < this->Probes_.size(); ++probe)
+  {
+    for (const Piece& piece : this->Probes_[probe].Pieces)
+    {
+      if (compared[probe] > 0.0)
+      {
+        const double share = piece.Weight / compared[probe];
+        weights[piece.Cell] += static_cast<float>(share * share);
+      }
+    }
+  }
+  return weights;
 }
 
 double VeilProbes::WholeError(const std::vector<BatchState>& batches) const

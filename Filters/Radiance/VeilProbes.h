@@ -33,6 +33,10 @@ public:
   /// The same of all probes together: what little light there is along one of them may be unknown.
   double WholeError(const std::vector<BatchState>& batches) const;
 
+  /// What the square of a change of each cell's fluence adds to the square of the relative error,
+  /// but for a factor [1/lx2].
+  std::vector<float> Weights(const std::vector<BatchState>& batches) const;
+
   /// The largest ratio, over the probes, of what is not direct to the direct light along a probe;
   /// no floor, since a place in the dark beside a bright one may be all that is seen.
   /// @param fluence a cell's, of what is not direct [lx]
@@ -58,6 +62,8 @@ private:
 
   /// The light along each probe by each batch [cd/m2].
   std::vector<Lanes> LightOf(const std::vector<BatchState>& batches) const;
+  /// What errors are compared with: means of these, and the floor [cd/m2].
+  std::vector<double> Compared(const std::vector<Lanes>& lights) const;
   /// Sky that shows is left out: it is exact, and would outshine what is not.
   void Add(const Scene& scene, const LightField& field, int band, const Vec3& eye,
     const Vec3& direction, double reach);

@@ -3,6 +3,7 @@
 #include "Team.h"
 #include "LightField.h"
 #include "Scene.h"
+#include "SceneLibrary.h"
 
 #include <algorithm>
 #include <barrier>
@@ -141,7 +142,16 @@ SceneDescription RoomWithWhiteBox()
   return scene;
 }
 
-std::vector<LightField> SolveTogether(const Scene& scene, int size)
+LightFieldOptions Coarse()
+{
+  LightFieldOptions options;
+  options.Tolerance = 0.1;
+  return options;
+}
+
+/// @param options of all of them
+std::vector<LightField> SolveTogether(
+  const Scene& scene, int size, LightFieldOptions options = Coarse())
 {
   MeetingPlace place(size);
   std::vector<LightField> fields(size);
@@ -149,11 +159,9 @@ std::vector<LightField> SolveTogether(const Scene& scene, int size)
   for (int rank = 0; rank < size; ++rank)
   {
     members.emplace_back(
-      [&, rank]
+      [&, rank, options]() mutable
       {
         ThreadTeam team(place, rank);
-        LightFieldOptions options;
-        options.Tolerance = 0.1;
         options.Threads = 1;
         options.Colleagues = &team;
         Progress progress;
@@ -184,8 +192,7 @@ double Count(const LightField& field, const std::string& what)
 TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
 {
   const Scene scene(Room());
-  LightFieldOptions options;
-  options.Tolerance = 0.1;
+  const LightFieldOptions options = Coarse();
   Progress progress;
   const LightField alone = SolveLightField(scene, options, progress);
   ASSERT_GT(Count(alone, "band 0: rays gathered by signs"), 0.0);
@@ -239,14 +246,29 @@ TEST(TeamTest, AnyNumberOfProcessesGivesTheSameBits)
 TEST(TeamTest, LightThatIsBalancedByItself)
 {
   const Scene scene(RoomWithWhiteBox());
-  LightFieldOptions options;
-  options.Tolerance = 0.1;
+  const LightFieldOptions options = Coarse();
   Progress progress;
   const LightField alone = SolveLightField(scene, options, progress);
   for (const LightField& own : SolveTogether(scene, 3))
   {
     EXPECT_TRUE(SameBits(alone.MultipleFluence, own.MultipleFluence));
     EXPECT_TRUE(SameBits(alone.MultipleIlluminance, own.MultipleIlluminance));
+  }
+}
+
+TEST(TeamTest, LinesWhereNoiseIs)
+{
+  const Scene scene(scenes::FlameBehindADoor());
+  LightFieldOptions options;
+  options.Tolerance = 0.02;
+  options.Seed = 2;
+  Progress progress;
+  const LightField alone = SolveLightField(scene, options, progress);
+  ASSERT_GT(Count(alone, "band 0: boxes that more lines lead through"), 0.0);
+  for (const LightField& own : SolveTogether(scene, 3, options))
+  {
+    EXPECT_TRUE(SameBits(own.MultipleFluence, alone.MultipleFluence));
+    EXPECT_TRUE(SameBits(own.MultipleIlluminance, alone.MultipleIlluminance));
   }
 }
 

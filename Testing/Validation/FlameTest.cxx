@@ -1,4 +1,6 @@
 // A flame that lights a room full of smoke.
+#include "Contrast.h"
+#include "ReferenceSign.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 #include "TestReport.h"
@@ -130,6 +132,24 @@ TEST(Flame, IsNearlyEvenInThickCells)
     report::Relative("x " + std::to_string(eye.x).substr(0, 3), expected.Mean, seen.Mean, 0.1,
       std::hypot(expected.StandardError, seen.StandardError));
   }
+}
+
+// Few of the lines through the rooms lead from the flame through the door: where they bring most of
+// the noise more are drawn.
+TEST(Flame, BehindADoor)
+{
+  report::Head("Sign in a room that a flame lights through a door");
+  const Vec3 eye(3.6, 0.8, 1.6);
+  const Solved solved(scenes::FlameBehindADoor());
+  EXPECT_GT(WorkCount(solved.Field->Report, "boxes that more lines lead through"), 0.0);
+  const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
+  const ReferenceSign paths = MeasureByPaths(*solved.TheScene, eye, 2000);
+  report::Absolute("contrast", paths.Contrast.Mean, sign.Contrast, 0.005,
+    std::hypot(paths.Contrast.StandardError, sign.ContrastError));
+  report::Relative("dark bars", paths.UnlitLuminance.Mean, sign.UnlitLuminance, 0.01,
+    std::hypot(paths.UnlitLuminance.StandardError, sign.MeanLuminanceError));
+  report::Relative("lit bars", paths.LitLuminance.Mean, sign.LitLuminance, 0.01,
+    std::hypot(paths.LitLuminance.StandardError, sign.MeanLuminanceError));
 }
 
 } // namespace

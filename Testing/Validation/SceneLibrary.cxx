@@ -209,6 +209,35 @@ SceneDescription LayeredCorridor(double height, double albedo, double reflectanc
 }
 
 //--------------------------------------------------------------------------------------------------
+SceneDescription FlameBehindADoor()
+{
+  SceneDescription scene;
+  scene.Albedo = 0.5;
+  const Vec3 upper(6.0, 3.0, 2.5);
+  SmokeGrid grid = UniformSmoke(Vec3(0.0), upper, {24, 12, 10}, 0.2);
+  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
+  for (int k = 0; k < 4; ++k)
+  {
+    for (int j = 7; j < 9; ++j)
+    {
+      for (int i = 3; i < 5; ++i)
+      {
+        const int cell = i + 24 * (j + 12 * k);
+        grid.Extinction[cell] = 2.0F;
+        grid.EmittedLuminance[cell] = 2000.0F;
+      }
+    }
+  }
+  scene.Grids = {grid};
+  AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.3, 0.5);
+  AddBlock(scene.Surfaces, {3, 0, 0}, {3.25, 1, 2.5}, 0.3, 0.5);
+  AddBlock(scene.Surfaces, {3, 2, 0}, {3.25, 3, 2.5}, 0.3, 0.5);
+  AddBlock(scene.Surfaces, {3, 1, 2}, {3.25, 2, 2.5}, 0.3, 0.5);
+  scene.Emitters = Barcode({5.98, 2.4, 1.8}, {-1, 0, 0}, {0, 0, 1}, 0.5, 0.25, 5, 20.0, 0);
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance)
 {

@@ -52,6 +52,10 @@ SceneDescription Corridor(
 /// @param reflectance of the walls; of the sign half of that
 SceneDescription LayeredCorridor(double height, double albedo, double reflectance);
 
+/// Two rooms of 3 m x 3 m x 2.5 m and a door between them: in one a flame that nobody sees from the
+/// other, where a sign hangs.
+SceneDescription FlameBehindADoor();
+
 /// A sign of vertical stripes of equal width, every other one lit, beginning with a lit one.
 std::vector<EmitterCell> Barcode(const Vec3& centre, const Vec3& normal, const Vec3& up,
   double width, double height, int bars, double luminance, int signId, double reflectance = 0.0);
