@@ -10,6 +10,28 @@
 namespace smokevis::scenes
 {
 
+namespace
+{
+
+/// Up to two lamps below the ceiling of a room, and an eye at its low end along x.
+/// @param brightest of the lamps [cd/m2]
+/// @param between(low, high) a random number between two bounds
+template <class Between>
+void AddLampsAndEye(RandomScene& room, const Vec3& upper, double brightest, const Between& between)
+{
+  const int lamps = static_cast<int>(between(0.0, 2.999));
+  for (int lamp = 0; lamp < lamps; ++lamp)
+  {
+    room.Description.Emitters.push_back(
+      Plate({between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1}, {0, 0, -1},
+        {1, 0, 0}, 0.3, 0.3, between(2.0, brightest), 0.5));
+  }
+  room.Eye = {between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8)};
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
 RandomScene MakeRandomRoom(std::uint64_t seed)
 {
   Pcg32 random(seed, 7);
@@ -29,14 +51,7 @@ RandomScene MakeRandomRoom(std::uint64_t seed)
   const Vec3 sign(upper.x, between(0.6, upper.y - 0.6), between(1.5, 2.0));
   scene.Emitters = Barcode(sign, {-1, 0, 0}, {0, 0, 1}, between(0.2, 0.5), between(0.15, 0.3),
     2 * static_cast<int>(between(1.0, 4.0)) + 1, 100.0, 0, between(0.0, 0.3));
-  const int lamps = static_cast<int>(between(0.0, 2.999));
-  for (int lamp = 0; lamp < lamps; ++lamp)
-  {
-    scene.Emitters.push_back(
-      Plate({between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1}, {0, 0, -1},
-        {1, 0, 0}, 0.3, 0.3, between(2.0, 20.0), 0.5));
-  }
-  room.Eye = {between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8)};
+  AddLampsAndEye(room, upper, 20.0, between);
   return room;
 }
 
@@ -133,14 +148,7 @@ RandomScene MakeRandomClouds(std::uint64_t seed)
   const Vec3 sign(upper.x - 0.01, between(0.6, upper.y - 0.6), between(1.5, 2.1));
   scene.Emitters = Barcode(sign, {-1, 0, 0}, {0, 0, 1}, between(0.2, 0.6), between(0.15, 0.3),
     2 * static_cast<int>(between(1.0, 4.999)) + 1, 100.0, 0, between(0.0, 0.3));
-  const int lamps = static_cast<int>(between(0.0, 2.999));
-  for (int lamp = 0; lamp < lamps; ++lamp)
-  {
-    scene.Emitters.push_back(
-      Plate({between(0.5, upper.x - 0.5), between(0.5, upper.y - 0.5), upper.z - 0.1}, {0, 0, -1},
-        {1, 0, 0}, 0.3, 0.3, between(2.0, 50.0), 0.5));
-  }
-  room.Eye = {between(0.2, 0.6), between(0.5, upper.y - 0.5), between(1.5, 1.8)};
+  AddLampsAndEye(room, upper, 50.0, between);
   return room;
 }
 

@@ -21,5 +21,8 @@ RandomScene MakeRandomField(std::uint64_t seed);
 /// A room with up to three clouds, boxes and ellipsoids of denser smoke, in thin smoke, with up to
 /// two lamps and a sign.
 RandomScene MakeRandomClouds(std::uint64_t seed);
+/// Two rooms with a door between them, layers of smoke, and perhaps a flame and a window in the
+/// first one, up to two lamps in either, and a sign in the second.
+RandomScene MakeRandomBuilding(std::uint64_t seed);
 
 } // namespace smokevis::scenes

@@ -228,6 +228,26 @@ TEST(RandomClouds, TwelveLong)
   }
 }
 
+// Cells right before a plate differ by up to three times, so that what glows there in the shape of
+// the pattern jumps at their borders: dark bars are right to 2 %, as rays are.
+constexpr double BuildingRays = 0.02;
+constexpr double BuildingBars = 0.02;
+
+// A room that sky and a flame light, and the sign behind its door.
+TEST(RandomBuilding, One)
+{
+  CheckRoom("building", scenes::MakeRandomBuilding(9), 9, 50000, BuildingRays, BuildingBars);
+}
+
+TEST(RandomBuilding, TwelveLong)
+{
+  for (std::uint64_t seed = 11; seed <= 22; ++seed)
+  {
+    CheckRoom(
+      "building", scenes::MakeRandomBuilding(seed), seed, 400000, BuildingRays, BuildingBars);
+  }
+}
+
 TEST(RandomField, TwelveLong)
 {
   for (std::uint64_t seed = 11; seed <= 22; ++seed)

@@ -1,0 +1,188 @@
+// Two rooms, drawn at random, with what a fire makes of them.
+#include "RandomScenes.h"
+
+#include "Places.h"
+#include "ReferenceIntegrator.h"
+#include "SceneLibrary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smokevis::scenes
+{
+
+namespace
+{
+
+/// Numbers of a scene, in the order that they are asked for.
+class Numbers
+{
+public:
+  explicit Numbers(std::uint64_t seed) : Random_(seed, 21) {}
+
+  double Between(double low, double high) { return low + (high - low) * this->Random_.Uniform(); }
+  /// Evenly over orders of magnitude.
+  double Log(double low, double high)
+  {
+    return std::exp(this->Between(std::log(low), std::log(high)));
+  }
+  int Count(int most) { return static_cast<int>(this->Between(0.0, most + 0.999)); }
+  bool Chance(double share) { return this->Random_.Uniform() < share; }
+
+private:
+  Pcg32 Random_;
+};
+
+/// The rooms lie one behind the other along x, with a wall of one cell between them.
+struct Plan
+{
+  double Edge;
+  Vec3 Upper;
+  /// Where the wall begins and ends, and the door in it.
+  double WallBegin, WallEnd, DoorLow, DoorHigh, DoorTop;
+  double Patch;
+};
+
+Plan DrawPlan(Numbers& numbers)
+{
+  Plan plan;
+  plan.Edge = numbers.Between(0.2, 0.35);
+  const auto cells = [&](double low, double high)
+  { return std::floor(numbers.Between(low, high) / plan.Edge) * plan.Edge; };
+  plan.WallBegin = cells(3.0, 6.0);
+  plan.WallEnd = plan.WallBegin + plan.Edge;
+  plan.Upper = {plan.WallEnd + cells(2.0, 5.0), cells(2.5, 4.5), cells(2.4, 3.2)};
+  plan.DoorLow = plan.Edge * std::ceil(numbers.Between(0.1, 0.5) * plan.Upper.y / plan.Edge);
+  plan.DoorHigh = plan.DoorLow + cells(0.8, 1.2);
+  plan.DoorTop = cells(1.9, 2.2);
+  plan.Patch = glm::length(plan.Upper) / 50.0;
+  return plan;
+}
+
+/// A layer of smoke below the ceiling of each room, thinner in the second one, that fades out
+/// below; in the first one a flame, perhaps.
+SmokeGrid DrawSmoke(Numbers& numbers, const Plan& plan)
+{
+  std::array<int, 3> cells{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cells[axis] = static_cast<int>(std::lround(plan.Upper[axis] / plan.Edge));
+  }
+  SmokeGrid grid = UniformSmoke(Vec3(0.0), plan.Upper, cells, 0.0);
+  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
+  const std::array<double, 2> height = {numbers.Between(0.8, 2.2), numbers.Between(1.2, 2.4)};
+  const double thickest = numbers.Log(0.1, 2.0);
+  const std::array<double, 2> extinction = {thickest, thickest * numbers.Between(0.1, 1.0)};
+  const double fade = numbers.Between(0.05, 0.8);
+  const double below = numbers.Between(0.0, 0.2);
+  const double noise = numbers.Between(0.0, 0.5);
+  const bool burns = numbers.Chance(0.6);
+  const Vec3 fire(numbers.Between(0.8, plan.WallBegin - 0.8),
+    numbers.Between(0.8, plan.Upper.y - 0.8), numbers.Between(0.6, 1.5));
+  const double radius = numbers.Between(0.25, 0.5);
+  const double soot = numbers.Between(1.0, 2.0);
+  const auto luminance = static_cast<float>(numbers.Log(100.0, 3000.0));
+  std::size_t index = 0;
+  ForEachPlace(cells,
+    [&](const std::array<int, 3>& place)
+    {
+      const Vec3 at = plan.Edge * (Vec3(place[0], place[1], place[2]) + 0.5);
+      const int room = at.x < plan.WallBegin ? 0 : 1;
+      const double share =
+        below + (1.0 - below) * 0.5 * (1.0 + std::tanh((at.z - height[room]) / fade));
+      double own = extinction[room] * share * (1.0 + noise * numbers.Between(-1.0, 1.0));
+      const bool inFire =
+        burns && at.z < fire.z && std::hypot(at.x - fire.x, at.y - fire.y) < radius;
+      own += inFire ? soot : 0.0;
+      const bool inDoor = at.y > plan.DoorLow && at.y < plan.DoorHigh && at.z < plan.DoorTop;
+      const bool solid = at.x > plan.WallBegin && at.x < plan.WallEnd && !inDoor;
+      grid.Extinction[index] = solid ? 0.0F : static_cast<float>(own);
+      grid.EmittedLuminance[index] = inFire ? luminance : 0.0F;
+      ++index;
+    });
+  return grid;
+}
+
+/// The walls around both rooms, that at the low end along x with a window, perhaps, and the one
+/// between them.
+void AddWalls(Numbers& numbers, const Plan& plan, SceneDescription& scene)
+{
+  SurfaceMesh& mesh = scene.Surfaces;
+  const double reflectance = numbers.Between(0.1, 0.75);
+  const auto add = [&](const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV)
+  {
+    const auto pieces = [&](const Vec3& edge)
+    { return std::max(1, static_cast<int>(std::ceil(glm::length(edge) / plan.Patch))); };
+    AddRectangle(mesh, corner, edgeU, edgeV, pieces(edgeU), pieces(edgeV), reflectance);
+  };
+  const Vec3 x(plan.Upper.x, 0, 0);
+  const Vec3 y(0, plan.Upper.y, 0);
+  const Vec3 z(0, 0, plan.Upper.z);
+  add(x, z, y);
+  add({0, 0, 0}, z, x);
+  add(y, x, z);
+  add({0, 0, 0}, x, y);
+  add(z, y, x);
+  if (numbers.Chance(0.4))
+  {
+    scene.Sky = numbers.Log(1.0, 1000.0);
+    add({0, 0, 0}, y, 0.3 * z);
+    add(0.7 * z, y, 0.3 * z);
+    add(0.3 * z, 0.35 * y, 0.4 * z);
+    add(0.3 * z + 0.65 * y, 0.35 * y, 0.4 * z);
+  }
+  else
+  {
+    add({0, 0, 0}, y, z);
+  }
+  const auto block = [&](double lowY, double highY, double lowZ)
+  {
+    AddBlock(mesh, {plan.WallBegin, lowY, lowZ}, {plan.WallEnd, highY, plan.Upper.z}, plan.Patch,
+      reflectance);
+  };
+  block(0.0, plan.DoorLow, 0.0);
+  block(plan.DoorHigh, plan.Upper.y, 0.0);
+  block(plan.DoorLow, plan.DoorHigh, plan.DoorTop);
+  for (int left = numbers.Count(3); left > 0; --left)
+  {
+    // Lower than any line from the eye to the sign.
+    const Vec3 corner(
+      numbers.Between(0.3, plan.WallBegin - 1.3), numbers.Between(0.2, plan.Upper.y - 0.9), 0.0);
+    AddBlock(mesh, corner, corner + Vec3(numbers.Between(0.3, 0.9), 0.5, numbers.Between(0.4, 1.2)),
+      plan.Patch, numbers.Between(0.05, 0.7));
+  }
+}
+
+} // namespace
+
+//--------------------------------------------------------------------------------------------------
+RandomScene MakeRandomBuilding(std::uint64_t seed)
+{
+  Numbers numbers(seed);
+  RandomScene building;
+  SceneDescription& scene = building.Description;
+  const Plan plan = DrawPlan(numbers);
+  scene.Albedo = numbers.Between(0.2, 0.9);
+  scene.Grids.push_back(DrawSmoke(numbers, plan));
+  AddWalls(numbers, plan, scene);
+  const Vec3 sign(plan.Upper.x - 0.02, numbers.Between(0.5, plan.Upper.y - 0.5),
+    numbers.Between(1.5, std::min(2.4, plan.Upper.z - 0.3)));
+  scene.Emitters =
+    Barcode(sign, {-1, 0, 0}, {0, 0, 1}, numbers.Between(0.3, 0.6), numbers.Between(0.15, 0.3),
+      2 * (1 + numbers.Count(3)) + 1, numbers.Log(5.0, 300.0), 0, numbers.Between(0.0, 0.3));
+  const double luminance = numbers.Log(1.0, 1000.0);
+  for (int left = numbers.Count(2); left > 0; --left)
+  {
+    const bool first = numbers.Chance(0.5);
+    scene.Emitters.push_back(
+      Plate({first ? numbers.Between(0.6, plan.WallBegin - 0.6)
+                   : numbers.Between(plan.WallEnd + 0.6, plan.Upper.x - 0.6),
+              numbers.Between(0.6, plan.Upper.y - 0.6), plan.Upper.z - numbers.Between(0.02, 0.3)},
+        {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, luminance, 0.5));
+  }
+  building.Eye = {plan.WallEnd + numbers.Between(0.1, 0.8),
+    numbers.Between(0.4, plan.Upper.y - 0.4), numbers.Between(1.5, 1.8)};
+  return building;
+}
+
+} // namespace smokevis::scenes
