@@ -257,7 +257,7 @@ std::unique_ptr<SignVeil> SignLook::MakeVeil(int band) const
   auto plate = std::make_unique<PlateVeil>(
     this->View_, this->Eye_, band, places, this->Plate_, this->Sight_.Across(), this->Sight_.Up());
   const double least = std::max(LeastRoughness, tolerance / 3.0);
-  if (few && std::min(depths, plate->RelativeRoughness()) > least)
+  if (few && (plate->Jumps() || std::min(depths, plate->RelativeRoughness()) > least))
   {
     return shown();
   }

@@ -96,6 +96,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
   const double fewest = FewestThinLines / static_cast<double>(this->Lines());
+  this->PlainLines_ = this->Lines();
   this->ThinLines_ =
     this->Lines_.Thinned(std::min(1.0, std::max({ThinShare, this->HitsShare(), fewest})));
   this->Steps_ = CellSteps(scene, extinction, this->CellCrossings_, often);
@@ -306,8 +307,9 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     this->TraceLine(state, drawn, tallies, buffers);
     if (survey && line % survey->Every == 0)
     {
-      survey->Lines.push_back({drawn.Origin, drawn.Direction, static_cast<float>(drawn.Density()),
-        this->SquareOf(drawn, tallies, buffers, survey->Weights)});
+      survey->Lines.push_back(
+        {drawn.Origin - this->Outer().Lower, drawn.Direction, static_cast<float>(drawn.Density()),
+          this->SquareOf(drawn, tallies, buffers, survey->Weights)});
     }
   }
 

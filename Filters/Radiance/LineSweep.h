@@ -115,8 +115,14 @@ public:
   void LeaveOutBlocks() { this->Blocks_.reset(); }
   /// Share of what a whole sweep would change of the light that it does change (CellSteps).
   double MeanStep() const { return this->Steps_.MeanStep(); }
-  /// Those of a thin sweep.
+  /// Those of a thin sweep, and their share of those that a whole one has without any added ones.
   std::size_t ThinLines() const { return this->ThinLines_.Count(); }
+  double ShareOfThin() const
+  {
+    return static_cast<double>(this->ThinLines()) / static_cast<double>(this->PlainLines_);
+  }
+  /// Whether some were added.
+  bool HasMoreLines() const { return this->Lines() > this->PlainLines_; }
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance, or
   /// takes them some way where its noise would grow, and is added to the sums.
@@ -126,7 +132,7 @@ public:
   /// @param survey what some of the lines bring, if that is asked for
   void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
     const Progress& progress, LineSurvey* survey = nullptr) const;
-  /// Draws more lines from now on.
+  /// Draws more lines from now on, which whole sweeps have beside those that they had.
   void AddLines(const NoisyBox& box)
   {
     this->Lines_.AddInner(box.Bounds, GlobalLines::AtLeast(box.Lines));
@@ -145,10 +151,7 @@ private:
   /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
   float HitsForWholeStep(std::size_t side) const;
   /// Share of a whole sweep's lines that a sweep has.
-  float ShareOf(bool thin) const
-  {
-    return thin ? static_cast<float>(this->ThinLines()) / static_cast<float>(this->Lines()) : 1.0F;
-  }
+  float ShareOf(bool thin) const { return thin ? static_cast<float>(this->ShareOfThin()) : 1.0F; }
   /// Sum of the squares that a line which was just traced brings to cells, times what these count.
   float SquareOf(const GlobalLines::Line& line, const LineTallies& tallies,
     const LineBuffers& buffers, const std::vector<float>& weights) const;
@@ -180,6 +183,8 @@ private:
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
   GlobalLines Lines_, ThinLines_;
+  /// Lines of a whole sweep without any added ones.
+  std::size_t PlainLines_ = 0;
   /// Whether lines fetch what they need to know of how direct light varies inside cells.
   bool FetchesDirect_ = false;
   ThickCells Thick_;

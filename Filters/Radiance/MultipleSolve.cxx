@@ -125,7 +125,7 @@ std::size_t MultipleSolve::Aim(
   {
     this->Say(name + "boxes that more lines lead through", static_cast<double>(boxes),
       "they bring most of the noise: " + std::to_string(sweeps.Sweep().Lines() - before) +
-        " lines more a sweep and batch");
+        " lines more a sweep and batch; sweeps before are left out");
   }
   return boxes;
 }
@@ -133,7 +133,7 @@ std::size_t MultipleSolve::Aim(
 void MultipleSolve::Refine(const std::string& name, BatchSweeps& sweeps, const VeilProbes& probes)
 {
   const double wanted = ErrorShare * this->Options_.Tolerance;
-  bool aimed = false;
+  bool aimed = sweeps.Sweep().HasMoreLines();
   for (double error = probes.RelativeError(sweeps.States());
        error > wanted && sweeps.Done() < Settling::MostSweeps;
        error = probes.RelativeError(sweeps.States()))
@@ -145,7 +145,9 @@ void MultipleSolve::Refine(const std::string& name, BatchSweeps& sweeps, const V
     const double missing = counted * (share * share - 1.0);
     double next = std::min<double>(missing, counted);
     const double lines = static_cast<double>(Batches * sweeps.Sweep().Lines());
-    if (!aimed && missing > counted && missing * lines > ManyLines)
+    // As many sweeps as before must be left beside the one that tells where lines should go.
+    const bool fits = sweeps.Done() + 1 + counted <= Settling::MostSweeps;
+    if (!aimed && fits && missing > counted && missing * lines > ManyLines)
     {
       aimed = true;
       if (this->Aim(name, sweeps, probes) == 0)
@@ -351,8 +353,8 @@ void MultipleSolve::Band(int band)
       "after most sweeps noise still hides whether it drifts by more than the tolerance");
   }
   this->Say(name + "lines a sweep and batch", static_cast<double>(sweep->Lines()),
-    "cells of a mesh's mean size are crossed about 1.5 times, less often above a tolerance of "
-    "0.03");
+    "cells of a mesh's mean size are crossed about 1.5 times or more, less often above a tolerance "
+    "of 0.03");
   if (sweep->Blocks())
   {
     this->Say(name + "blocks of diffusion", static_cast<double>(sweep->Blocks()->Count()),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace smokevis
@@ -18,7 +19,7 @@ constexpr std::size_t MostBoxes = 8;
 constexpr double LeastGain = 0.1;
 /// How many times as many lines a box gets at most: how noisy some places are few lines tell.
 constexpr double MostTimes = 32.0;
-/// Share of all variance that counts of any one line: a few must not decide.
+/// Share of all variance that counts which one line has at most: a few must not decide.
 constexpr double MostOfOne = 0.01;
 /// Share of all lines that meet a box at most.
 constexpr double MostMet = 0.1;
@@ -71,6 +72,27 @@ struct Part
   std::array<int, 3> First, End;
 };
 
+/// What counts of any one line at most.
+float LargestSquare(const std::vector<SurveyedLine>& lines)
+{
+  constexpr int MostRounds = 32;
+  double most = std::numeric_limits<float>::max();
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    double all = 0.0;
+    for (const SurveyedLine& line : lines)
+    {
+      all += std::min<double>(line.Square, most);
+    }
+    if (most <= 1.01 * MostOfOne * all)
+    {
+      break;
+    }
+    most = MostOfOne * all;
+  }
+  return static_cast<float>(most);
+}
+
 class Search
 {
 public:
@@ -79,12 +101,7 @@ public:
         SweepOver_(static_cast<double>(count) / static_cast<double>(lines.size()))
   {
     const Vec3 size = scene.Size();
-    double all = 0.0;
-    for (const SurveyedLine& line : lines)
-    {
-      all += line.Square;
-    }
-    const auto most = static_cast<float>(MostOfOne * all);
+    const float most = LargestSquare(lines);
     for (int axis = 0; axis < 3; ++axis)
     {
       this->Size_[axis] =
@@ -94,8 +111,8 @@ public:
     for (std::size_t i = 0; i < lines.size(); ++i)
     {
       const SurveyedLine& line = lines[i];
-      this->Halves_[2 * i / lines.size()].push_back({line.Origin - glm::vec3(scene.Lower),
-        line.Direction, 1.0F / line.Direction, line.Density, std::min(line.Square, most)});
+      this->Halves_[2 * i / lines.size()].push_back({line.Origin, line.Direction,
+        1.0F / line.Direction, line.Density, std::min(line.Square, most)});
     }
   }
 

@@ -72,6 +72,35 @@ double PlateColumns::Between(std::size_t column, double t) const
   return (t - first) / (this->Node(column, 1) - first);
 }
 
+PlateColumns PlateColumns::DividedAt(const std::vector<double>& borders) const
+{
+  PlateColumns divided = *this;
+  divided.Ends.insert(divided.Ends.end(), borders.begin(), borders.end());
+  std::sort(divided.Ends.begin(), divided.Ends.end());
+  return divided;
+}
+
+std::vector<PlateColumns::Piece> PlateColumns::PiecesOf(double middle, double length) const
+{
+  const double begin = middle - 0.5 * length;
+  const double end = middle + 0.5 * length;
+  std::vector<Piece> pieces;
+  for (std::size_t column = this->Of(begin); column < this->Count(); ++column)
+  {
+    const double first = pieces.empty() ? begin : this->Ends[column];
+    const double last = column + 1 < this->Count() ? std::min(end, this->Ends[column + 1]) : end;
+    if (last > first || pieces.empty())
+    {
+      pieces.push_back({column, length > 0.0 ? (last - first) / length : 1.0, first, last});
+    }
+    if (!(end > last))
+    {
+      break;
+    }
+  }
+  return pieces;
+}
+
 Vec3 OnPlate(const Sign& sign, double u, double v)
 {
   return sign.Corners[0] + u * (sign.Corners[1] - sign.Corners[0]) +

@@ -31,6 +31,20 @@ struct PlateColumns
   double Node(std::size_t column, int index) const;
   /// Where a place lies between them, 0 at the first and 1 at the second.
   double Between(std::size_t column, double t) const;
+  /// The same with further borders inside columns.
+  PlateColumns DividedAt(const std::vector<double>& borders) const;
+
+  /// What lies in one column of a stretch.
+  struct Piece
+  {
+    std::size_t Column;
+    /// Of the stretch.
+    double Share;
+    double Begin, End;
+    double Middle() const { return 0.5 * (this->Begin + this->End); }
+  };
+  /// The pieces of a stretch; of one without a length the column that it lies in.
+  std::vector<Piece> PiecesOf(double middle, double length) const;
 };
 
 } // namespace smokevis

@@ -113,7 +113,7 @@ void Settling::FindPersistence()
   const float* const direct =
     this->Field_.DirectIlluminance.data() + this->Field_.PatchIndex(this->Band_, 0, 0);
   const LineSweep& sweep = this->Sweeps_.Sweep();
-  const double thin = static_cast<double>(sweep.ThinLines()) / static_cast<double>(sweep.Lines());
+  const double thin = sweep.ShareOfThin();
   std::vector<double> scattered(2 * this->Field_.Patches);
   double power = 0.0;
   double area = 0.0;

@@ -16,6 +16,8 @@ namespace
 /// Errors of sixteen batches are known to a fifth: what is gathered is clearly better where its
 /// error is below this share of the other.
 constexpr double BetterShare = 0.7;
+/// Tolerances of the shapes before a plate at which smoke is right before it.
+constexpr double NearlyOnPlate = 10.0;
 /// Cosine of the slant beyond which the way of an eye's rays close to a plate gets no longer.
 constexpr double LeastSlant = 0.25;
 /// Share of the veil before the plate's middle by which it may bend along either edge between the
@@ -34,6 +36,11 @@ struct ToldWay
 constexpr ToldWay Above = {7, 6, 8};
 constexpr std::array<ToldWay, 2> Beside = {{{3, 0, 6}, {5, 2, 8}}};
 
+/// Columns of more than this share of an edge are divided where the smoke right before them changes
+/// by more than this share.
+constexpr double WideColumn = 0.2;
+constexpr double LeastJump = 0.2;
+
 /// The batches of all that the smoke adds along a ray [cd/m2].
 Lanes VeilOf(const RayLight& light)
 {
@@ -45,6 +52,12 @@ Lanes VeilOf(const RayLight& light)
   return veil;
 }
 
+/// From the sign's rectangle to a place: facets may lie before or behind it.
+Vec3 OffPlate(const Sign& sign, const SeenPlace& place)
+{
+  return place.Point - OnPlate(sign, place.OnPlate.x, place.OnPlate.y);
+}
+
 /// Distance from a plate along a ray within which smoke glows in the shape of its pattern.
 double GlowReach(
   const Sign& sign, const PlateColumns& columns, const PlateColumns& rows, const Vec3& direction)
@@ -54,6 +67,35 @@ double GlowReach(
     2.0 * std::min(columns.Widest * glm::length(sign.Corners[1] - sign.Corners[0]),
             rows.Widest * glm::length(sign.Corners[3] - sign.Corners[0]));
   return height / std::max(LeastSlant, std::abs(glm::dot(direction, sign.Normal)));
+}
+
+/// Columns (or rows) of the pattern, divided where the smoke right before them changes from cell to
+/// cell, and what glows there with it: along the line through the plate's middle.
+PlateColumns DividedBySmoke(
+  const View& view, const Sign& sign, const PlateColumns& columns, int edge)
+{
+  const Scene& scene = view.TheScene();
+  const Vec3 begin = edge == 0 ? OnPlate(sign, 0.0, 0.5) : OnPlate(sign, 0.5, 0.0);
+  const Vec3 way = (edge == 0 ? OnPlate(sign, 1.0, 0.5) : OnPlate(sign, 0.5, 1.0)) - begin;
+  const double length = glm::length(way);
+  std::vector<Segment> cells;
+  scene.Smoke().Walk(begin + NearlyOnPlate * scene.Shapes().Tolerance() * sign.Normal, way / length,
+    0.0, length, cells);
+  std::vector<double> borders;
+  for (std::size_t next = 1; next < cells.size(); ++next)
+  {
+    const double one = scene.Smoke().Extinction(cells[next - 1].Cell);
+    const double other = scene.Smoke().Extinction(cells[next].Cell);
+    const double at = cells[next].Begin / length;
+    const std::size_t column = columns.Of(at);
+    const double width = columns.Ends[column + 1] - columns.Ends[column];
+    if (std::abs(one - other) > LeastJump * std::max(one, other) && width > WideColumn &&
+        at > columns.Ends[column] && at < columns.Ends[column + 1])
+    {
+      borders.push_back(at);
+    }
+  }
+  return columns.DividedAt(borders);
 }
 
 } // namespace
@@ -82,7 +124,9 @@ std::size_t SignVeil::Gather()
 PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   const std::vector<SeenPlace>& places, const Sign& sign, const PlateColumns& columns,
   const PlateColumns& rows)
-    : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
+    : SignVeil(view, eye, band, places), Columns_(DividedBySmoke(view, sign, columns, 0)),
+      Rows_(DividedBySmoke(view, sign, rows, 1)),
+      Jumps_(Columns_.Count() + Rows_.Count() > columns.Count() + rows.Count())
 {
   const auto reachOf = [&](const Vec3& direction)
   { return GlowReach(sign, columns, rows, direction); };
@@ -118,20 +162,21 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   {
     ahead = std::min(ahead, way.Light.Veil());
   }
-  this->Near_.resize(columns.Count() * rows.Count());
-  for (std::size_t row = 0; row < rows.Count(); ++row)
+  this->Near_.resize(this->Columns_.Count() * this->Rows_.Count());
+  for (std::size_t row = 0; row < this->Rows_.Count(); ++row)
   {
-    for (std::size_t column = 0; column < columns.Count(); ++column)
+    for (std::size_t column = 0; column < this->Columns_.Count(); ++column)
     {
       for (std::size_t node = 0; node < Nodes; ++node)
       {
         const Vec3 to =
-          OnPlate(sign, columns.Node(column, node % 2), rows.Node(row, node / 2)) - eye;
+          OnPlate(sign, this->Columns_.Node(column, node % 2), this->Rows_.Node(row, node / 2)) -
+          eye;
         const double distance = glm::length(to);
         const Vec3 direction = to / distance;
         const RayLight light =
           this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance, ahead);
-        this->Near_[row * columns.Count() + column][node] = VeilOf(light);
+        this->Near_[row * this->Columns_.Count() + column][node] = VeilOf(light);
       }
     }
   }
@@ -200,17 +245,23 @@ Lanes PlateVeil::At(std::size_t place) const
   const glm::dvec2& at = this->Places_[place].OnPlate;
   const auto u = QuadraticWeights(at.x);
   const auto v = QuadraticWeights(at.y);
-  const std::size_t column = this->Columns_.Of(at.x);
-  const std::size_t row = this->Rows_.Of(at.y);
-  // Linear through the nodes of the column and row: its mean over them stays theirs.
-  const double right = this->Columns_.Between(column, at.x);
-  const double upper = this->Rows_.Between(row, at.y);
+  const glm::dvec2& size = this->Places_[place].Size;
   Lanes veil;
-  for (std::size_t node = 0; node < Nodes; ++node)
+  for (const PlateColumns::Piece& column : this->Columns_.PiecesOf(at.x, size.x))
   {
-    const double share =
-      (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
-    Add(veil, this->Near_[row * this->Columns_.Count() + column][node], static_cast<float>(share));
+    for (const PlateColumns::Piece& row : this->Rows_.PiecesOf(at.y, size.y))
+    {
+      // Linear through the nodes of the column and row: its mean over them stays theirs.
+      const double right = this->Columns_.Between(column.Column, column.Middle());
+      const double upper = this->Rows_.Between(row.Column, row.Middle());
+      for (std::size_t node = 0; node < Nodes; ++node)
+      {
+        const double share =
+          (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
+        Add(veil, this->Near_[row.Column * this->Columns_.Count() + column.Column][node],
+          static_cast<float>(column.Share * row.Share * share));
+      }
+    }
   }
   double steady = 0.0;
   for (int j = 0; j < 3; ++j)
@@ -238,51 +289,88 @@ ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band,
   const double all = std::accumulate(places.begin(), places.end(), 0.0,
     [](double sum, const SeenPlace& place) { return sum + place.Weight; });
   const bool near = whole && columns.Count() * rows.Count() > 1;
+  const std::array<Axis, 2> axes = {{{columns, DividedBySmoke(view, sign, columns, 0)},
+    {rows, DividedBySmoke(view, sign, rows, 1)}}};
   for (const SeenPlace& place : places)
   {
-    const Vec3 to = place.Point - eye;
-    const double distance = glm::length(to);
-    const Vec3 direction = to / distance;
-    const double reach = near ? GlowReach(sign, columns, rows, direction) : 0.0;
-    const double end = std::max(0.0, distance - reach);
-    this->Ways_.push_back({{direction, end, place.Weight / all}, this->Trace(direction, 0.0, end)});
+    this->First_.push_back(this->Ways_.size());
+    double ahead = 0.0;
+    for (const PlateColumns::Piece& row : axes[1].Divided.PiecesOf(place.OnPlate.y, place.Size.y))
+    {
+      for (const PlateColumns::Piece& column :
+        axes[0].Divided.PiecesOf(place.OnPlate.x, place.Size.x))
+      {
+        const double share = column.Share * row.Share;
+        const Vec3 to = OnPlate(sign, column.Middle(), row.Middle()) + OffPlate(sign, place) - eye;
+        const double distance = glm::length(to);
+        const Vec3 direction = to / distance;
+        const double reach = near ? GlowReach(sign, columns, rows, direction) : 0.0;
+        const double end = std::max(0.0, distance - reach);
+        this->Ways_.push_back(
+          {{direction, end, share * place.Weight / all}, this->Trace(direction, 0.0, end)});
+        ahead += share * this->Ways_.back().Light.Veil();
+      }
+    }
     if (near)
     {
-      const double ahead = this->Ways_.back().Light.Veil();
-      this->Near_.push_back(this->MeanCloseTo(place, sign, columns, rows, ahead));
+      this->Near_.push_back(this->MeanCloseTo(place, sign, axes, ahead));
     }
   }
+  this->First_.push_back(this->Ways_.size());
 }
 
-Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign, const PlateColumns& columns,
-  const PlateColumns& rows, double ahead) const
+Lanes ShownVeil::MeanCloseTo(
+  const SeenPlace& place, const Sign& sign, const std::array<Axis, 2>& axes, double ahead) const
 {
-  const std::array<std::size_t, 2> nodes = {
-    columns.Count() > 1 ? Nodes2.size() : 1, rows.Count() > 1 ? Nodes2.size() : 1};
-  const auto nodeOf = [&](std::size_t index, int axis)
+  // Places along an edge, and their weights.
+  std::array<std::vector<glm::dvec2>, 2> nodes;
+  for (int axis = 0; axis < 2; ++axis)
   {
-    const double share = nodes[axis] > 1 ? Nodes2[index] - 0.5 : 0.0;
-    return place.OnPlate[axis] + share * place.Size[axis];
-  };
-  // Facets may lie before or behind the sign's rectangle.
-  const Vec3 off = place.Point - OnPlate(sign, place.OnPlate.x, place.OnPlate.y);
+    for (const PlateColumns::Piece& piece :
+      axes[axis].Divided.PiecesOf(place.OnPlate[axis], place.Size[axis]))
+    {
+      if (axes[axis].Pattern.Count() == 1)
+      {
+        nodes[axis].emplace_back(piece.Middle(), piece.Share);
+        continue;
+      }
+      for (const double node : Nodes2)
+      {
+        nodes[axis].emplace_back(
+          piece.Begin + node * (piece.End - piece.Begin), piece.Share / Nodes2.size());
+      }
+    }
+  }
+  const Vec3 off = OffPlate(sign, place);
   Lanes mean;
-  for (std::size_t node = 0; node < nodes[0] * nodes[1]; ++node)
+  for (const glm::dvec2& v : nodes[1])
   {
-    const Vec3 to =
-      OnPlate(sign, nodeOf(node % nodes[0], 0), nodeOf(node / nodes[0], 1)) + off - this->Eye_;
-    const double distance = glm::length(to);
-    const Vec3 direction = to / distance;
-    const double begin = std::max(0.0, distance - GlowReach(sign, columns, rows, direction));
-    Add(mean, VeilOf(this->Trace(direction, begin, distance, ahead)),
-      1.0F / static_cast<float>(nodes[0] * nodes[1]));
+    for (const glm::dvec2& u : nodes[0])
+    {
+      const Vec3 to = OnPlate(sign, u.x, v.x) + off - this->Eye_;
+      const double distance = glm::length(to);
+      const Vec3 direction = to / distance;
+      const double reach = GlowReach(sign, axes[0].Pattern, axes[1].Pattern, direction);
+      Add(mean, VeilOf(this->Trace(direction, std::max(0.0, distance - reach), distance, ahead)),
+        static_cast<float>(u.y * v.y));
+    }
   }
   return mean;
 }
 
 Lanes ShownVeil::At(std::size_t place) const
 {
-  Lanes veil = VeilOf(this->Ways_[place].Light);
+  double weights = 0.0;
+  for (std::size_t way = this->First_[place]; way < this->First_[place + 1]; ++way)
+  {
+    weights += this->Ways_[way].Line.Weight;
+  }
+  Lanes veil;
+  for (std::size_t way = this->First_[place]; way < this->First_[place + 1]; ++way)
+  {
+    Add(veil, VeilOf(this->Ways_[way].Light),
+      static_cast<float>(this->Ways_[way].Line.Weight / weights));
+  }
   if (!this->Near_.empty())
   {
     Add(veil, this->Near_[place], 1.0F);

@@ -33,8 +33,8 @@ public:
   /// The same of all probes together: what little light there is along one of them may be unknown.
   double WholeError(const std::vector<BatchState>& batches) const;
 
-  /// What the square of a change of each cell's fluence adds to the square of the relative error,
-  /// but for a factor [1/lx2].
+  /// What the square of a change of each cell's fluence alone adds to the square of the relative
+  /// error, but for a factor [1/lx2]; no surface's light counts, as probes end before walls.
   std::vector<float> Weights(const std::vector<BatchState>& batches) const;
 
   /// The largest ratio, over the probes, of what is not direct to the direct light along a probe;

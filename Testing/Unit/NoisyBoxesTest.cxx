@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,7 +23,7 @@ bool MeetsBox(const SurveyedLine& line, const Box& box)
 {
   double begin = 0.0;
   double end = std::numeric_limits<double>::infinity();
-  return box.Clip(Vec3(line.Origin), 1.0 / Vec3(line.Direction), begin, end);
+  return box.Clip(Building.Lower + Vec3(line.Origin), 1.0 / Vec3(line.Direction), begin, end);
 }
 
 /// Lines all over the scene.
@@ -37,7 +36,8 @@ std::vector<SurveyedLine> Survey(const std::function<float(const SurveyedLine&)>
   for (std::size_t i = 0; i < LineCount; ++i)
   {
     const GlobalLines::Line line = draw.Get(i);
-    surveyed.push_back({line.Origin, line.Direction, static_cast<float>(line.Density()), 0.0F});
+    surveyed.push_back(
+      {line.Origin - Building.Lower, line.Direction, static_cast<float>(line.Density()), 0.0F});
     surveyed.back().Square = square(surveyed.back());
   }
   return surveyed;
@@ -67,7 +67,7 @@ TEST(NoisyBoxes, AreFound)
   EXPECT_LE(more, LineCount);
 }
 
-// Where lines bring about as much everywhere, or one brings all, no place needs more.
+// Where lines bring about as much everywhere, or a few bring all, no place needs more.
 TEST(NoisyBoxes, NoneWhereNoiseIsEven)
 {
   EXPECT_TRUE(FindNoisyBoxes({}, Building, LineCount).empty());
@@ -76,10 +76,10 @@ TEST(NoisyBoxes, NoneWhereNoiseIsEven)
   EXPECT_TRUE(FindNoisyBoxes(
     Survey([](const SurveyedLine& line) { return 1.0F + line.Direction.x; }), Building, LineCount)
                 .empty());
-  bool first = true;
-  const auto one =
-    Survey([&first](const SurveyedLine&) { return std::exchange(first, false) ? 1e9F : 1.0F; });
-  EXPECT_TRUE(FindNoisyBoxes(one, Building, LineCount).empty());
+  const Box speck = {{4, 3.5, 0}, {4.1, 3.6, 0.1}};
+  const auto few =
+    Survey([&](const SurveyedLine& line) { return MeetsBox(line, speck) ? 1e9F : 1.0F; });
+  EXPECT_TRUE(FindNoisyBoxes(few, Building, LineCount).empty());
 }
 
 // A sweep of more lines than were surveyed gets as many more as it is larger.
@@ -89,6 +89,7 @@ TEST(NoisyBoxes, LinesAreASweeps)
   auto lines =
     Survey([&](const SurveyedLine& line) { return MeetsBox(line, door) ? 100.0F : 1.0F; });
   const std::vector<NoisyBox> boxes = FindNoisyBoxes(lines, Building, LineCount);
+  ASSERT_FALSE(boxes.empty());
   for (SurveyedLine& line : lines)
   {
     line.Density *= 3.0F;

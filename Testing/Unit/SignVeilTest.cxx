@@ -5,6 +5,7 @@
 #include "View.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -211,6 +212,30 @@ TEST(PlateVeil, UnderALamp)
   {
     EXPECT_LT(ErrorUnderLamp(ratio, heights), 0.005) << ratio << ", " << heights;
   }
+}
+
+TEST(PlateColumns, PiecesOfAStretch)
+{
+  const PlateColumns columns = PlateColumns({0.0, 0.5, 1.0}).DividedAt({0.8});
+  ASSERT_EQ(columns.Count(), 3U);
+  const auto pieces = columns.PiecesOf(0.65, 0.5);
+  ASSERT_EQ(pieces.size(), 3U);
+  const std::array<double, 3> shares = {0.2, 0.6, 0.2};
+  const std::array<double, 3> middles = {0.45, 0.65, 0.85};
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+  {
+    EXPECT_EQ(pieces[piece].Column, piece);
+    EXPECT_NEAR(pieces[piece].Share, shares[piece], 1e-12);
+    EXPECT_NEAR(pieces[piece].Middle(), middles[piece], 1e-12);
+  }
+  // All of one column, and a stretch without a length; what sticks out belongs to the outer ones.
+  EXPECT_EQ(columns.PiecesOf(0.25, 0.5).size(), 1U);
+  ASSERT_EQ(columns.PiecesOf(0.7, 0.0).size(), 1U);
+  EXPECT_EQ(columns.PiecesOf(0.7, 0.0).front().Column, 1U);
+  EXPECT_EQ(columns.PiecesOf(0.7, 0.0).front().Share, 1.0);
+  const auto out = columns.PiecesOf(0.95, 0.2);
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_NEAR(out.front().End, 1.05, 1e-12);
 }
 
 } // namespace

@@ -51,10 +51,10 @@ Plan DrawPlan(Numbers& numbers)
   { return std::floor(numbers.Between(low, high) / plan.Edge) * plan.Edge; };
   plan.WallBegin = cells(3.0, 6.0);
   plan.WallEnd = plan.WallBegin + plan.Edge;
-  plan.Upper = {plan.WallEnd + cells(2.0, 5.0), cells(2.5, 4.5), cells(2.4, 3.2)};
+  plan.Upper = Vec3{plan.WallEnd + cells(2.0, 5.0), cells(2.5, 4.5), cells(2.4, 3.2)};
   plan.DoorLow = plan.Edge * std::ceil(numbers.Between(0.1, 0.5) * plan.Upper.y / plan.Edge);
-  plan.DoorHigh = plan.DoorLow + cells(0.8, 1.2);
-  plan.DoorTop = cells(1.9, 2.2);
+  plan.DoorHigh = std::min(plan.DoorLow + cells(0.8, 1.2), plan.Upper.y - plan.Edge);
+  plan.DoorTop = std::min(cells(1.9, 2.2), plan.Upper.z - plan.Edge);
   plan.Patch = glm::length(plan.Upper) / 50.0;
   return plan;
 }
@@ -77,8 +77,8 @@ SmokeGrid DrawSmoke(Numbers& numbers, const Plan& plan)
   const double below = numbers.Between(0.0, 0.2);
   const double noise = numbers.Between(0.0, 0.5);
   const bool burns = numbers.Chance(0.6);
-  const Vec3 fire(numbers.Between(0.8, plan.WallBegin - 0.8),
-    numbers.Between(0.8, plan.Upper.y - 0.8), numbers.Between(0.6, 1.5));
+  const Vec3 fire{numbers.Between(0.8, plan.WallBegin - 0.8),
+    numbers.Between(0.8, plan.Upper.y - 0.8), numbers.Between(0.6, 1.5)};
   const double radius = numbers.Between(0.25, 0.5);
   const double soot = numbers.Between(1.0, 2.0);
   const auto luminance = static_cast<float>(numbers.Log(100.0, 3000.0));
@@ -146,10 +146,11 @@ void AddWalls(Numbers& numbers, const Plan& plan, SceneDescription& scene)
   for (int left = numbers.Count(3); left > 0; --left)
   {
     // Lower than any line from the eye to the sign.
-    const Vec3 corner(
-      numbers.Between(0.3, plan.WallBegin - 1.3), numbers.Between(0.2, plan.Upper.y - 0.9), 0.0);
-    AddBlock(mesh, corner, corner + Vec3(numbers.Between(0.3, 0.9), 0.5, numbers.Between(0.4, 1.2)),
-      plan.Patch, numbers.Between(0.05, 0.7));
+    const Vec3 corner{
+      numbers.Between(0.3, plan.WallBegin - 1.3), numbers.Between(0.2, plan.Upper.y - 0.9), 0.0};
+    const Vec3 size{numbers.Between(0.3, 0.9), 0.5, numbers.Between(0.4, 1.2)};
+    const double own = numbers.Between(0.05, 0.7);
+    AddBlock(mesh, corner, corner + size, plan.Patch, own);
   }
 }
 
@@ -165,20 +166,23 @@ RandomScene MakeRandomBuilding(std::uint64_t seed)
   scene.Albedo = numbers.Between(0.2, 0.9);
   scene.Grids.push_back(DrawSmoke(numbers, plan));
   AddWalls(numbers, plan, scene);
-  const Vec3 sign(plan.Upper.x - 0.02, numbers.Between(0.5, plan.Upper.y - 0.5),
-    numbers.Between(1.5, std::min(2.4, plan.Upper.z - 0.3)));
+  const Vec3 sign{plan.Upper.x - 0.02, numbers.Between(0.5, plan.Upper.y - 0.5),
+    numbers.Between(1.5, std::min(2.4, plan.Upper.z - 0.3))};
+  const double width = numbers.Between(0.3, 0.6);
+  const double height = numbers.Between(0.15, 0.3);
+  const int bars = 2 * (1 + numbers.Count(3)) + 1;
+  const double luminance = numbers.Log(5.0, 300.0);
+  const double reflectance = numbers.Between(0.0, 0.3);
   scene.Emitters =
-    Barcode(sign, {-1, 0, 0}, {0, 0, 1}, numbers.Between(0.3, 0.6), numbers.Between(0.15, 0.3),
-      2 * (1 + numbers.Count(3)) + 1, numbers.Log(5.0, 300.0), 0, numbers.Between(0.0, 0.3));
-  const double luminance = numbers.Log(1.0, 1000.0);
+    Barcode(sign, {-1, 0, 0}, {0, 0, 1}, width, height, bars, luminance, 0, reflectance);
+  const double lamps = numbers.Log(1.0, 1000.0);
   for (int left = numbers.Count(2); left > 0; --left)
   {
     const bool first = numbers.Chance(0.5);
-    scene.Emitters.push_back(
-      Plate({first ? numbers.Between(0.6, plan.WallBegin - 0.6)
-                   : numbers.Between(plan.WallEnd + 0.6, plan.Upper.x - 0.6),
-              numbers.Between(0.6, plan.Upper.y - 0.6), plan.Upper.z - numbers.Between(0.02, 0.3)},
-        {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, luminance, 0.5));
+    const Vec3 place{first ? numbers.Between(0.6, plan.WallBegin - 0.6)
+                           : numbers.Between(plan.WallEnd + 0.6, plan.Upper.x - 0.6),
+      numbers.Between(0.6, plan.Upper.y - 0.6), plan.Upper.z - numbers.Between(0.02, 0.3)};
+    scene.Emitters.push_back(Plate(place, {0, 0, -1}, {1, 0, 0}, 0.6, 0.6, lamps, 0.5));
   }
   building.Eye = {plan.WallEnd + numbers.Between(0.1, 0.8),
     numbers.Between(0.4, plan.Upper.y - 0.4), numbers.Between(1.5, 1.8)};

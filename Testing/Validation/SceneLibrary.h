@@ -52,8 +52,8 @@ SceneDescription Corridor(
 /// @param reflectance of the walls; of the sign half of that
 SceneDescription LayeredCorridor(double height, double albedo, double reflectance);
 
-/// Two rooms of 3 m x 3 m x 2.5 m and a door between them: in one a flame that nobody sees from the
-/// other, where a sign hangs.
+/// Two rooms with a door between them, 6 m x 3 m x 2.5 m in all: in one a flame, in the other a
+/// sign that it lights through the door.
 SceneDescription FlameBehindADoor();
 
 /// A sign of vertical stripes of equal width, every other one lit, beginning with a lit one.
