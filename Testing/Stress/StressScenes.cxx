@@ -1,5 +1,7 @@
 #include "StressScenes.h"
 
+#include "Dice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,45 +13,6 @@ namespace smokevis::stress
 
 namespace
 {
-
-/// Draws what a scene is made of.
-class Dice
-{
-public:
-  explicit Dice(std::uint64_t seed) : Random_(seed, 11) {}
-
-  double Between(double low, double high) { return low + (high - low) * this->Random_.Uniform(); }
-  /// Even on a logarithmic scale.
-  double Magnitude(double low, double high)
-  {
-    return std::exp(this->Between(std::log(low), std::log(high)));
-  }
-  int Count(int least, int most)
-  {
-    return least + static_cast<int>((most - least + 1) * this->Random_.Uniform());
-  }
-  bool Chance(double probability) { return this->Random_.Uniform() < probability; }
-  double OneOf(std::initializer_list<double> values)
-  {
-    return values.begin()[this->Count(0, static_cast<int>(values.size()) - 1)];
-  }
-  Vec3 Inside(const Vec3& lower, const Vec3& upper)
-  {
-    const double x = this->Between(lower.x, upper.x);
-    const double y = this->Between(lower.y, upper.y);
-    return {x, y, this->Between(lower.z, upper.z)};
-  }
-  Vec3 Direction()
-  {
-    const double z = this->Between(-1.0, 1.0);
-    const double azimuth = this->Between(0.0, 2.0 * std::numbers::pi);
-    const double r = std::sqrt(1.0 - z * z);
-    return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-  }
-
-private:
-  Pcg32 Random_;
-};
 
 /// Uneven nodes between two bounds.
 std::vector<double> DrawNodes(Dice& dice, double first, double last, int cells)
@@ -217,7 +180,7 @@ void DrawEmitters(Dice& dice, const Vec3& upper, bool closed, StressScene& scene
 //--------------------------------------------------------------------------------------------------
 StressScene DrawScene(std::uint64_t seed)
 {
-  Dice dice(seed);
+  Dice dice(seed, 11);
   StressScene scene;
   scene.Name = "seed " + std::to_string(seed);
   const Vec3 upper = dice.Inside(Vec3(2.0, 1.5, 1.5), Vec3(6.0, 4.0, 3.0));

@@ -29,20 +29,7 @@ SceneDescription RoomWithFlame()
   scene.Albedo = 0.5;
   const Vec3 upper(6, 4, 3);
   scene.Grids = {scenes::UniformSmoke(Vec3(0.0), upper, {24, 16, 12}, 0.3)};
-  SmokeGrid& grid = scene.Grids.front();
-  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
-  for (int k = 0; k < 4; ++k)
-  {
-    for (int j = 7; j < 9; ++j)
-    {
-      for (int i = 6; i < 8; ++i)
-      {
-        const int cell = i + 24 * (j + 16 * k);
-        grid.Extinction[cell] = 2.0F;
-        grid.EmittedLuminance[cell] = 5000.0F;
-      }
-    }
-  }
+  scenes::AddFlame(scene.Grids.front(), {6, 7}, 5000.0);
   scenes::AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.5, 0.4);
   scene.Emitters = scenes::Barcode({6, 2, 2}, {-1, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 1.0, 0, 0.1);
   return scene;

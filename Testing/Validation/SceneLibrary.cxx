@@ -134,6 +134,23 @@ SmokeGrid NoisySmoke(const Vec3& lower, const Vec3& upper, const std::array<int,
 }
 
 //--------------------------------------------------------------------------------------------------
+void AddFlame(SmokeGrid& grid, const std::array<int, 2>& first, double luminance)
+{
+  const std::size_t row = grid.Nodes[0].size() - 1;
+  const std::size_t layer = row * (grid.Nodes[1].size() - 1);
+  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
+  ForEachPlace({2, 2, 4},
+    [&](const std::array<int, 3>& place)
+    {
+      const std::size_t cell = static_cast<std::size_t>(first[0] + place[0]) +
+                               row * static_cast<std::size_t>(first[1] + place[1]) +
+                               layer * static_cast<std::size_t>(place[2]);
+      grid.Extinction[cell] = 2.0F;
+      grid.EmittedLuminance[cell] = static_cast<float>(luminance);
+    });
+}
+
+//--------------------------------------------------------------------------------------------------
 std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node)
 {
   std::pair<SmokeGrid, SmokeGrid> parts;
@@ -215,19 +232,7 @@ SceneDescription FlameBehindADoor()
   scene.Albedo = 0.5;
   const Vec3 upper(6.0, 3.0, 2.5);
   SmokeGrid grid = UniformSmoke(Vec3(0.0), upper, {24, 12, 10}, 0.2);
-  grid.EmittedLuminance.assign(grid.Extinction.size(), 0.0F);
-  for (int k = 0; k < 4; ++k)
-  {
-    for (int j = 7; j < 9; ++j)
-    {
-      for (int i = 3; i < 5; ++i)
-      {
-        const int cell = i + 24 * (j + 12 * k);
-        grid.Extinction[cell] = 2.0F;
-        grid.EmittedLuminance[cell] = 2000.0F;
-      }
-    }
-  }
+  AddFlame(grid, {3, 7}, 2000.0);
   scene.Grids = {grid};
   AddRoom(scene.Surfaces, Vec3(0.0), upper, 0.3, 0.5);
   AddBlock(scene.Surfaces, {3, 0, 0}, {3.25, 1, 2.5}, 0.3, 0.5);

@@ -35,6 +35,11 @@ SmokeGrid UniformSmoke(
 SmokeGrid NoisySmoke(const Vec3& lower, const Vec3& upper, const std::array<int, 3>& cells,
   double low, double high, std::uint64_t seed);
 
+/// Lets cells of an even grid glow, with an extinction of 2 /m: two by two along x and y from one
+/// on, of the four lowest layers.
+/// @param first cell along x and y
+void AddFlame(SmokeGrid& grid, const std::array<int, 2>& first, double luminance);
+
 /// The parts of a grid on the low and high side of one of its nodes.
 std::pair<SmokeGrid, SmokeGrid> Split(const SmokeGrid& grid, int axis, int node);
 
