@@ -36,10 +36,11 @@ struct ToldWay
 constexpr ToldWay Above = {7, 6, 8};
 constexpr std::array<ToldWay, 2> Beside = {{{3, 0, 6}, {5, 2, 8}}};
 
-/// Columns of more than this share of an edge are divided where the smoke right before them changes
-/// by more than this share.
-constexpr double WideColumn = 0.2;
+/// Columns of more than this share of an edge, which is not that of even columns, are divided where
+/// the smoke right before them changes by more than this share, into parts no smaller than these.
+constexpr double WideColumn = 0.225;
 constexpr double LeastJump = 0.2;
+constexpr double SmallestPart = 0.01;
 
 /// The batches of all that the smoke adds along a ray [cd/m2].
 Lanes VeilOf(const RayLight& light)
@@ -75,11 +76,13 @@ PlateColumns DividedBySmoke(
   const View& view, const Sign& sign, const PlateColumns& columns, int edge)
 {
   const Scene& scene = view.TheScene();
-  const Vec3 begin = edge == 0 ? OnPlate(sign, 0.0, 0.5) : OnPlate(sign, 0.5, 0.0);
-  const Vec3 way = (edge == 0 ? OnPlate(sign, 1.0, 0.5) : OnPlate(sign, 0.5, 1.0)) - begin;
+  // A face of cells may go right through the middle.
+  constexpr double middle = 0.513;
+  const Vec3 first = edge == 0 ? OnPlate(sign, 0.0, middle) : OnPlate(sign, middle, 0.0);
+  const Vec3 way = (edge == 0 ? OnPlate(sign, 1.0, middle) : OnPlate(sign, middle, 1.0)) - first;
   const double length = glm::length(way);
   std::vector<Segment> cells;
-  scene.Smoke().Walk(begin + NearlyOnPlate * scene.Shapes().Tolerance() * sign.Normal, way / length,
+  scene.Smoke().Walk(first + NearlyOnPlate * scene.Shapes().Tolerance() * sign.Normal, way / length,
     0.0, length, cells);
   std::vector<double> borders;
   for (std::size_t next = 1; next < cells.size(); ++next)
@@ -88,9 +91,11 @@ PlateColumns DividedBySmoke(
     const double other = scene.Smoke().Extinction(cells[next].Cell);
     const double at = cells[next].Begin / length;
     const std::size_t column = columns.Of(at);
-    const double width = columns.Ends[column + 1] - columns.Ends[column];
-    if (std::abs(one - other) > LeastJump * std::max(one, other) && width > WideColumn &&
-        at > columns.Ends[column] && at < columns.Ends[column + 1])
+    const double end = columns.Ends[column + 1];
+    const double begin = std::max(columns.Ends[column], borders.empty() ? 0.0 : borders.back());
+    if (std::abs(one - other) > LeastJump * std::max(one, other) &&
+        end - columns.Ends[column] > WideColumn && at > begin + SmallestPart &&
+        at < end - SmallestPart)
     {
       borders.push_back(at);
     }
