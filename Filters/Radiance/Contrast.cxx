@@ -9,6 +9,7 @@
 #include "ZoneLight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -232,10 +233,13 @@ std::unique_ptr<SignVeil> SignLook::MakeVeil(int band) const
 {
   const std::vector<SeenPlace>& places = this->Sight_.Places();
   const bool whole = !this->Sight_.PartlyHidden();
+  const std::array<PlateAxis, 2> axes = {
+    PlateAxis(this->View_, this->Plate_, this->Sight_.Across(), 0),
+    PlateAxis(this->View_, this->Plate_, this->Sight_.Up(), 1)};
   const auto shown = [&]
   {
-    return std::make_unique<ShownVeil>(this->View_, this->Eye_, band, places, this->Plate_,
-      this->Sight_.Across(), this->Sight_.Up(), whole);
+    return std::make_unique<ShownVeil>(
+      this->View_, this->Eye_, band, places, this->Plate_, axes, whole);
   };
   // Before a plate without a pattern its contrast is that of the veil, which falls off right before
   // the plate's rim.
@@ -250,14 +254,15 @@ std::unique_ptr<SignVeil> SignLook::MakeVeil(int band) const
   const double depths = this->View_.TheScene().LargestScale() * Roughness(places, this->Depths_) /
                         std::clamp(this->Result_.OpticalDepth, FaintDepth, 1.0);
   const bool few = places.size() <= MostRays;
-  if (few && (this->Fine_ || depths > std::max(LargestRoughness, tolerance)))
+  const bool divided = axes[0].IsDivided() || axes[1].IsDivided();
+  if (few && (this->Fine_ || divided || depths > std::max(LargestRoughness, tolerance)))
   {
     return shown();
   }
   auto plate = std::make_unique<PlateVeil>(
     this->View_, this->Eye_, band, places, this->Plate_, this->Sight_.Across(), this->Sight_.Up());
   const double least = std::max(LeastRoughness, tolerance / 3.0);
-  if (few && (plate->Jumps() || std::min(depths, plate->RelativeRoughness()) > least))
+  if (few && std::min(depths, plate->RelativeRoughness()) > least)
   {
     return shown();
   }

@@ -39,15 +39,19 @@ struct CountedLine
 struct Share
 {
   double Lines = 0.0, Variance = 0.0;
+  /// Of the lines that were surveyed.
+  double Surveyed = 0.0;
 
   void Add(const CountedLine& line)
   {
     this->Lines += line.Lines;
     this->Variance += line.Variance;
+    this->Surveyed += 1.0;
   }
   Share Over(const Share& all) const
   {
-    return all.Variance > 0.0 ? Share{this->Lines / all.Lines, this->Variance / all.Variance}
+    return all.Variance > 0.0 ? Share{this->Lines / all.Lines, this->Variance / all.Variance,
+                                  this->Surveyed / all.Surveyed}
                               : Share{};
   }
   /// Share of variance times work that is taken off if a box gets as many lines as it should; 0
@@ -183,15 +187,6 @@ private:
     return met.Over(all);
   }
 
-  /// Share of the surveyed lines that meet a part.
-  double Met(const Part& part) const
-  {
-    std::size_t met = 0;
-    this->ForEach(
-      part, this->Halves_[0], [&met](const CountedLine&, bool meets) { met += meets ? 1 : 0; });
-    return static_cast<double>(met) / static_cast<double>(this->Halves_[0].size());
-  }
-
   /// The cell of the raster to gain most by, as the first half tells.
   Part Noisiest() const
   {
@@ -253,10 +248,10 @@ private:
           Part larger = before;
           int& bound = face % 2 == 0 ? larger.First[axis] : larger.End[axis];
           bound = std::clamp(face % 2 == 0 ? bound - step : bound + step, 0, this->Size_[axis]);
-          if (const double gain = this->ShareOf(larger, this->Halves_[0]).Gain();
-              gain > most && this->Met(larger) < MostMet)
+          const Share share = this->ShareOf(larger, this->Halves_[0]);
+          if (share.Gain() > most && share.Surveyed < MostMet)
           {
-            most = gain;
+            most = share.Gain();
             part = larger;
             grown = true;
           }

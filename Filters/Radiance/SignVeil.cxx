@@ -70,10 +70,10 @@ double GlowReach(
   return height / std::max(LeastSlant, std::abs(glm::dot(direction, sign.Normal)));
 }
 
-/// Columns (or rows) of the pattern, divided where the smoke right before them changes from cell to
-/// cell, and what glows there with it: along the line through the plate's middle.
-PlateColumns DividedBySmoke(
-  const View& view, const Sign& sign, const PlateColumns& columns, int edge)
+} // namespace
+
+PlateAxis::PlateAxis(const View& view, const Sign& sign, const PlateColumns& pattern, int edge)
+    : Pattern(pattern), Divided(pattern)
 {
   const Scene& scene = view.TheScene();
   // A face of cells may go right through the middle.
@@ -90,20 +90,18 @@ PlateColumns DividedBySmoke(
     const double one = scene.Smoke().Extinction(cells[next - 1].Cell);
     const double other = scene.Smoke().Extinction(cells[next].Cell);
     const double at = cells[next].Begin / length;
-    const std::size_t column = columns.Of(at);
-    const double end = columns.Ends[column + 1];
-    const double begin = std::max(columns.Ends[column], borders.empty() ? 0.0 : borders.back());
+    const std::size_t column = pattern.Of(at);
+    const double end = pattern.Ends[column + 1];
+    const double begin = std::max(pattern.Ends[column], borders.empty() ? 0.0 : borders.back());
     if (std::abs(one - other) > LeastJump * std::max(one, other) &&
-        end - columns.Ends[column] > WideColumn && at > begin + SmallestPart &&
+        end - pattern.Ends[column] > WideColumn && at > begin + SmallestPart &&
         at < end - SmallestPart)
     {
       borders.push_back(at);
     }
   }
-  return columns.DividedAt(borders);
+  this->Divided = pattern.DividedAt(borders);
 }
-
-} // namespace
 
 std::size_t SignVeil::Gather()
 {
@@ -129,9 +127,7 @@ std::size_t SignVeil::Gather()
 PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   const std::vector<SeenPlace>& places, const Sign& sign, const PlateColumns& columns,
   const PlateColumns& rows)
-    : SignVeil(view, eye, band, places), Columns_(DividedBySmoke(view, sign, columns, 0)),
-      Rows_(DividedBySmoke(view, sign, rows, 1)),
-      Jumps_(Columns_.Count() + Rows_.Count() > columns.Count() + rows.Count())
+    : SignVeil(view, eye, band, places), Columns_(columns), Rows_(rows)
 {
   const auto reachOf = [&](const Vec3& direction)
   { return GlowReach(sign, columns, rows, direction); };
@@ -167,21 +163,20 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   {
     ahead = std::min(ahead, way.Light.Veil());
   }
-  this->Near_.resize(this->Columns_.Count() * this->Rows_.Count());
-  for (std::size_t row = 0; row < this->Rows_.Count(); ++row)
+  this->Near_.resize(columns.Count() * rows.Count());
+  for (std::size_t row = 0; row < rows.Count(); ++row)
   {
-    for (std::size_t column = 0; column < this->Columns_.Count(); ++column)
+    for (std::size_t column = 0; column < columns.Count(); ++column)
     {
       for (std::size_t node = 0; node < Nodes; ++node)
       {
         const Vec3 to =
-          OnPlate(sign, this->Columns_.Node(column, node % 2), this->Rows_.Node(row, node / 2)) -
-          eye;
+          OnPlate(sign, columns.Node(column, node % 2), rows.Node(row, node / 2)) - eye;
         const double distance = glm::length(to);
         const Vec3 direction = to / distance;
         const RayLight light =
           this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance, ahead);
-        this->Near_[row * this->Columns_.Count() + column][node] = VeilOf(light);
+        this->Near_[row * columns.Count() + column][node] = VeilOf(light);
       }
     }
   }
@@ -250,23 +245,17 @@ Lanes PlateVeil::At(std::size_t place) const
   const glm::dvec2& at = this->Places_[place].OnPlate;
   const auto u = QuadraticWeights(at.x);
   const auto v = QuadraticWeights(at.y);
-  const glm::dvec2& size = this->Places_[place].Size;
+  const std::size_t column = this->Columns_.Of(at.x);
+  const std::size_t row = this->Rows_.Of(at.y);
+  // Linear through the nodes of the column and row: its mean over them stays theirs.
+  const double right = this->Columns_.Between(column, at.x);
+  const double upper = this->Rows_.Between(row, at.y);
   Lanes veil;
-  for (const PlateColumns::Piece& column : this->Columns_.PiecesOf(at.x, size.x))
+  for (std::size_t node = 0; node < Nodes; ++node)
   {
-    for (const PlateColumns::Piece& row : this->Rows_.PiecesOf(at.y, size.y))
-    {
-      // Linear through the nodes of the column and row: its mean over them stays theirs.
-      const double right = this->Columns_.Between(column.Column, column.Middle());
-      const double upper = this->Rows_.Between(row.Column, row.Middle());
-      for (std::size_t node = 0; node < Nodes; ++node)
-      {
-        const double share =
-          (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
-        Add(veil, this->Near_[row.Column * this->Columns_.Count() + column.Column][node],
-          static_cast<float>(column.Share * row.Share * share));
-      }
-    }
+    const double share =
+      (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
+    Add(veil, this->Near_[row * this->Columns_.Count() + column][node], static_cast<float>(share));
   }
   double steady = 0.0;
   for (int j = 0; j < 3; ++j)
@@ -287,33 +276,41 @@ Lanes PlateVeil::At(std::size_t place) const
 }
 
 ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band,
-  const std::vector<SeenPlace>& places, const Sign& sign, const PlateColumns& columns,
-  const PlateColumns& rows, bool whole)
+  const std::vector<SeenPlace>& places, const Sign& sign, const std::array<PlateAxis, 2>& axes,
+  bool whole)
     : SignVeil(view, eye, band, places)
 {
   const double all = std::accumulate(places.begin(), places.end(), 0.0,
     [](double sum, const SeenPlace& place) { return sum + place.Weight; });
-  const bool near = whole && columns.Count() * rows.Count() > 1;
-  const std::array<Axis, 2> axes = {{{columns, DividedBySmoke(view, sign, columns, 0)},
-    {rows, DividedBySmoke(view, sign, rows, 1)}}};
+  const bool near = whole && axes[0].Pattern.Count() * axes[1].Pattern.Count() > 1;
+  const auto add = [&](const SeenPlace& place, const Vec3& point, double share)
+  {
+    const double distance = glm::length(point - eye);
+    const Vec3 direction = (point - eye) / distance;
+    const double reach = near ? GlowReach(sign, axes[0].Pattern, axes[1].Pattern, direction) : 0.0;
+    const double end = std::max(0.0, distance - reach);
+    this->Ways_.push_back(
+      {{direction, end, share * place.Weight / all}, this->Trace(direction, 0.0, end)});
+    this->Shares_.push_back(static_cast<float>(share));
+    return share * this->Ways_.back().Light.Veil();
+  };
   for (const SeenPlace& place : places)
   {
     this->First_.push_back(this->Ways_.size());
     double ahead = 0.0;
-    for (const PlateColumns::Piece& row : axes[1].Divided.PiecesOf(place.OnPlate.y, place.Size.y))
+    if (!whole)
     {
-      for (const PlateColumns::Piece& column :
-        axes[0].Divided.PiecesOf(place.OnPlate.x, place.Size.x))
+      ahead = add(place, place.Point, 1.0);
+    }
+    else
+    {
+      for (const auto& row : axes[1].Divided.PiecesOf(place.OnPlate.y, place.Size.y))
       {
-        const double share = column.Share * row.Share;
-        const Vec3 to = OnPlate(sign, column.Middle(), row.Middle()) + OffPlate(sign, place) - eye;
-        const double distance = glm::length(to);
-        const Vec3 direction = to / distance;
-        const double reach = near ? GlowReach(sign, columns, rows, direction) : 0.0;
-        const double end = std::max(0.0, distance - reach);
-        this->Ways_.push_back(
-          {{direction, end, share * place.Weight / all}, this->Trace(direction, 0.0, end)});
-        ahead += share * this->Ways_.back().Light.Veil();
+        for (const auto& column : axes[0].Divided.PiecesOf(place.OnPlate.x, place.Size.x))
+        {
+          const Vec3 point = OnPlate(sign, column.Middle(), row.Middle()) + OffPlate(sign, place);
+          ahead += add(place, point, column.Share * row.Share);
+        }
       }
     }
     if (near)
@@ -324,8 +321,8 @@ ShownVeil::ShownVeil(const View& view, const Vec3& eye, int band,
   this->First_.push_back(this->Ways_.size());
 }
 
-Lanes ShownVeil::MeanCloseTo(
-  const SeenPlace& place, const Sign& sign, const std::array<Axis, 2>& axes, double ahead) const
+Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign,
+  const std::array<PlateAxis, 2>& axes, double ahead) const
 {
   // Places along an edge, and their weights.
   std::array<std::vector<glm::dvec2>, 2> nodes;
@@ -365,16 +362,10 @@ Lanes ShownVeil::MeanCloseTo(
 
 Lanes ShownVeil::At(std::size_t place) const
 {
-  double weights = 0.0;
-  for (std::size_t way = this->First_[place]; way < this->First_[place + 1]; ++way)
-  {
-    weights += this->Ways_[way].Line.Weight;
-  }
   Lanes veil;
   for (std::size_t way = this->First_[place]; way < this->First_[place + 1]; ++way)
   {
-    Add(veil, VeilOf(this->Ways_[way].Light),
-      static_cast<float>(this->Ways_[way].Line.Weight / weights));
+    Add(veil, VeilOf(this->Ways_[way].Light), this->Shares_[way]);
   }
   if (!this->Near_.empty())
   {

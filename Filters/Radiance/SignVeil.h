@@ -76,9 +76,6 @@ public:
 
   Lanes At(std::size_t place) const override;
 
-  /// Whether the smoke right before the plate changes so much from cell to cell that what glows in
-  /// it has kinks all along the way.
-  bool Jumps() const { return this->Jumps_; }
   /// Roughness (Roughness.h) of the veil that the three by three rays tell, over its mean.
   double RelativeRoughness() const;
 
@@ -90,42 +87,50 @@ private:
   /// Of the two Gauss points of a column by those of a row.
   static constexpr std::size_t Nodes = 4;
 
-  /// Of the pattern and of the smoke right before it.
-  PlateColumns Columns_, Rows_;
-  bool Jumps_;
+  const PlateColumns& Columns_;
+  const PlateColumns& Rows_;
   /// What is added close to the plate, at the nodes of each column of each row.
   std::vector<std::array<Lanes, Nodes>> Near_;
 };
 
-/// Veil with a ray to each place, or to each of the pieces that cells right before it divide it
-/// into: before what shows of a plate that is partly hidden, as rays past
+/// Columns (or rows) of a sign's pattern, and what the cells of smoke right before it divide them
+/// into: what glows there jumps from cell to cell, and what is scattered farther away bends.
+struct PlateAxis
+{
+  /// @param pattern must outlive this
+  /// @param edge as of PlateColumns
+  PlateAxis(const View& view, const Sign& sign, const PlateColumns& pattern, int edge);
+
+  bool IsDivided() const { return this->Divided.Count() > this->Pattern.Count(); }
+
+  const PlateColumns& Pattern;
+  PlateColumns Divided;
+};
+
+/// Veil with a ray to each place: before what shows of a plate that is partly hidden, as rays past
 /// what hides it would tell of smoke that is not seen, behind rough smoke, and before a plate
-/// without a pattern. Close to a plate with a pattern that is all in view, the mean over each place
+/// without a pattern. Where all of the plate is in view and smoke divides it, there is one to each
+/// piece of a place. Close to a plate with a pattern that is all in view, the mean over each place
 /// is that of two Gauss points along each edge that the pattern changes along, and stays as the
 /// field has it where the rest is gathered, as before a PlateVeil's.
 class ShownVeil : public SignVeil
 {
 public:
+  /// @param axes along both edges
   /// @param whole whether all of the plate is in view
   ShownVeil(const View& view, const Vec3& eye, int band, const std::vector<SeenPlace>& places,
-    const Sign& sign, const PlateColumns& columns, const PlateColumns& rows, bool whole);
+    const Sign& sign, const std::array<PlateAxis, 2>& axes, bool whole);
 
   Lanes At(std::size_t place) const override;
 
 private:
-  /// A pattern's columns, and those that the smoke right before it is divided into as well.
-  struct Axis
-  {
-    const PlateColumns& Pattern;
-    PlateColumns Divided;
-  };
   /// Mean over a place of what is added close to it.
   /// @param ahead veil of the smoke on the way there [cd/m2]
-  Lanes MeanCloseTo(
-    const SeenPlace& place, const Sign& sign, const std::array<Axis, 2>& axes, double ahead) const;
+  Lanes MeanCloseTo(const SeenPlace& place, const Sign& sign, const std::array<PlateAxis, 2>& axes,
+    double ahead) const;
 
-  /// First of the ways to each place, one to each piece of it that the smoke right before it is
-  /// divided into, and the end.
+  /// Share of its place that each way tells of, and the first way to each place, and the end.
+  std::vector<float> Shares_;
   std::vector<std::size_t> First_;
   /// What is added close to the plate before each place, if that is told by itself.
   std::vector<Lanes> Near_;

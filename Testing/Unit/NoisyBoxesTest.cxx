@@ -43,8 +43,8 @@ std::vector<SurveyedLine> Survey(const std::function<float(const SurveyedLine&)>
   return surveyed;
 }
 
-// A door of which each line brings a hundred times as much as others: it gets several times its
-// lines, half as much variance times work is left, and a smaller share beside it is found.
+// A door of which each line brings a hundred times as much as others gets several times its lines,
+// and other boxes lie at it.
 TEST(NoisyBoxes, AreFound)
 {
   const Box door = {{4, 3.5, 0}, {4.25, 4.5, 2}};

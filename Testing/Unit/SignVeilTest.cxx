@@ -147,7 +147,9 @@ TEST(ShownVeil, BeforeWholeBars)
         places.push_back({at, size, OnPlate(sign, at.x, at.y), 1.0 / (Bars * Along)});
       }
     }
-    const ShownVeil veil(view, eye, 0, places, sign, columns, rows, true);
+    const std::array<PlateAxis, 2> axes = {
+      PlateAxis(view, sign, columns, 0), PlateAxis(view, sign, rows, 1)};
+    const ShownVeil veil(view, eye, 0, places, sign, axes, true);
     for (std::size_t bar = 0; bar < Bars; ++bar)
     {
       double told = 0.0;
@@ -192,7 +194,9 @@ double ErrorUnderLamp(double widthOverHeight, double heights)
     places.push_back({at, glm::dvec2(0.0), OnPlate(sign, at.x, at.y), 1.0 / 9.0});
   }
   const PlateVeil told(view, eye, 0, places, sign, columns, rows);
-  const ShownVeil seen(view, eye, 0, places, sign, columns, rows, true);
+  const std::array<PlateAxis, 2> axes = {
+    PlateAxis(view, sign, columns, 0), PlateAxis(view, sign, rows, 1)};
+  const ShownVeil seen(view, eye, 0, places, sign, axes, true);
   double largest = 0.0;
   for (std::size_t place = 0; place < places.size(); ++place)
   {
