@@ -331,7 +331,7 @@ Lanes ShownVeil::MeanCloseTo(const SeenPlace& place, const Sign& sign,
     for (const PlateColumns::Piece& piece :
       axes[axis].Divided.PiecesOf(place.OnPlate[axis], place.Size[axis]))
     {
-      if (axes[axis].Pattern.Count() == 1)
+      if (axes[axis].Divided.Count() == 1)
       {
         nodes[axis].emplace_back(piece.Middle(), piece.Share);
         continue;

@@ -111,8 +111,8 @@ struct PlateAxis
 /// what hides it would tell of smoke that is not seen, behind rough smoke, and before a plate
 /// without a pattern. Where all of the plate is in view and smoke divides it, there is one to each
 /// piece of a place. Close to a plate with a pattern that is all in view, the mean over each place
-/// is that of two Gauss points along each edge that the pattern changes along, and stays as the
-/// field has it where the rest is gathered, as before a PlateVeil's.
+/// is that of two Gauss points along each edge that the pattern or the smoke changes along, and
+/// stays as the field has it where the rest is gathered, as before a PlateVeil's.
 class ShownVeil : public SignVeil
 {
 public:

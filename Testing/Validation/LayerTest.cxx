@@ -189,7 +189,7 @@ TEST(Layer, GlowBeforeASignThatItsBorderCrosses)
     const Vec3 eye(0.5, 1.4, 1.6);
     const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
     const SignByRays rays = MeasureByRays(*solved.TheView, eye, {12, 120});
-    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.03) << height;
+    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.025) << height;
     EXPECT_NEAR(sign.Contrast, rays.Contrast, 0.001) << height;
   }
 }

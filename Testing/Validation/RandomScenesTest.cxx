@@ -119,7 +119,7 @@ TEST(RandomRoom, DarkBarsBehindUnevenSmoke)
 
 // Lamps make the veil rougher than the optical depths over the plate, which are rough by 0.024 to
 // 0.035 of their mean here: nine rays told dark bars 2 to 5 % wrong. A ray to each part tells those
-// of sixty such rooms to 0.35 % (root mean square), and to 1.2 % at most.
+// of sixty such rooms to 0.28 % (root mean square), and to 0.9 % at most.
 TEST(RandomRoom, DarkBarsBehindLitSmokeLikeNoise)
 {
   for (const std::uint64_t seed : {5, 18, 20, 23})
@@ -130,7 +130,7 @@ TEST(RandomRoom, DarkBarsBehindLitSmokeLikeNoise)
     ASSERT_GT(sign.VisibleFraction, 0.999);
     ASSERT_FALSE(sign.Uneven);
     const SignByRays rays = MeasureByRays(*solved.TheView, room.Eye, {20, 60});
-    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.015) << seed;
+    EXPECT_NEAR(sign.UnlitLuminance / rays.UnlitLuminance, 1.0, 0.01) << seed;
   }
 }
 
