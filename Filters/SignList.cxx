@@ -1,6 +1,7 @@
 // Lists signs.
 #include "SignList.h"
 
+#include "Box.h"
 #include "LightFieldInput.h"
 #include "Scene.h"
 
@@ -9,6 +10,8 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkStringArray.h>
+
+#include <algorithm>
 
 namespace smokevis
 {
@@ -20,6 +23,40 @@ std::string NameOf(int id)
   return "Sign " + std::to_string(id);
 }
 
+/// Calls visit(id, cell) for the cells of a block's signs.
+template <class Visit> void ForEachSignCell(const SurfaceBlock& block, Visit&& visit)
+{
+  vtkDataArray* const ids = block.Mesh->GetCellData()->GetArray("SignId");
+  for (vtkIdType cell = 0; ids && cell < ids->GetNumberOfTuples(); ++cell)
+  {
+    if (const int id = static_cast<int>(ids->GetComponent(cell, 0)); id >= 0)
+    {
+      visit(id, cell);
+    }
+  }
+}
+
+/// The boxes around a block's signs, by id.
+std::map<int, Box> SignBounds(const SurfaceBlock& block)
+{
+  std::map<int, Box> bounds;
+  ForEachSignCell(block,
+    [&](int id, vtkIdType cell)
+    {
+      double own[6];
+      block.Mesh->GetCellBounds(cell, own);
+      bounds.try_emplace(id, Box::Nothing())
+        .first->second.Add({{own[0], own[2], own[4]}, {own[1], own[3], own[5]}});
+    });
+  return bounds;
+}
+
+/// Distance between two boxes [m].
+double GapBetween(const Box& a, const Box& b)
+{
+  return glm::length(glm::max(Vec3(0.0), glm::max(a.Lower - b.Upper, b.Lower - a.Upper)));
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -28,20 +65,42 @@ std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitte
   std::map<int, std::string> names;
   for (const SurfaceBlock& block : emitters)
   {
-    vtkCellData* const cells = block.Mesh->GetCellData();
-    vtkDataArray* const ids = cells->GetArray("SignId");
-    auto* const texts = vtkStringArray::SafeDownCast(cells->GetAbstractArray("SignName"));
-    for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
-    {
-      const int id = static_cast<int>(ids->GetComponent(i, 0));
-      if (id >= 0)
+    auto* const texts =
+      vtkStringArray::SafeDownCast(block.Mesh->GetCellData()->GetAbstractArray("SignName"));
+    ForEachSignCell(block,
+      [&](int id, vtkIdType cell)
       {
-        const std::string name = texts ? std::string(texts->GetValue(i)) : std::string();
+        const std::string name = texts ? std::string(texts->GetValue(cell)) : std::string();
         names.emplace(id, name.empty() ? NameOf(id) : name);
+      });
+  }
+  return names;
+}
+
+//------------------------------------------------------------------------------
+std::vector<PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters)
+{
+  // The first block that has a sign, and where.
+  std::map<int, std::pair<const SurfaceBlock*, Box>> firsts;
+  std::map<int, PartedSign> parted;
+  for (const SurfaceBlock& block : emitters)
+  {
+    for (const auto& [id, bounds] : SignBounds(block))
+    {
+      const auto& [first, others] = firsts.try_emplace(id, &block, bounds).first->second;
+      const double gap = GapBetween(others, bounds);
+      if (gap > std::max(glm::length(others.Size()), glm::length(bounds.Size())))
+      {
+        parted.try_emplace(id, PartedSign{id, first->Name, block.Name, gap});
       }
     }
   }
-  return names;
+  std::vector<PartedSign> found;
+  for (const auto& [id, sign] : parted)
+  {
+    found.push_back(sign);
+  }
+  return found;
 }
 
 //------------------------------------------------------------------------------

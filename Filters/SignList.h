@@ -22,6 +22,18 @@ struct SignList
 /// What emitters call the signs, by id from 0; a sign without a name is called by its id.
 std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitters);
 
+/// A sign of which two blocks have parts that lie farther apart than either is large.
+struct PartedSign
+{
+  int Id = 0;
+  std::string One, Other;
+  /// Between the boxes around the parts [m].
+  double Gap = 0.0;
+};
+
+/// Such signs among emitters, once each: rather two signs that were given one id.
+std::vector<PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters);
+
 /// The signs of a scene.
 SignList ListSigns(const Scene& scene, const std::map<int, std::string>& names);
 

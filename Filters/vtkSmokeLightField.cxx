@@ -13,6 +13,7 @@
 #include "SceneBuilder.h"
 #include "SceneKeeper.h"
 #include "ScenePreparation.h"
+#include "SignList.h"
 #include "WholeInput.h"
 
 #include <vtkInformation.h>
@@ -177,6 +178,18 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
                       << " m. Is one of them in millimetres? A CAD Reader has UnitScale, other "
                       << "data the filter Transform.");
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSmokeLightField::WarnOfPartedSigns(const SceneBlocks& blocks)
+{
+  for (const smokevis::PartedSign& sign : smokevis::FindPartedSigns(blocks.Emitters))
+  {
+    vtkWarningMacro(<< "Emitters: '" << sign.One << "' and '" << sign.Other
+                    << "' both have cells of SignId " << sign.Id << ", " << sign.Gap
+                    << " m apart, which are measured as one sign. Give each sign a SignId of its "
+                    << "own.");
   }
 }
 
@@ -368,6 +381,7 @@ void vtkSmokeLightField::Prepare(vtkInformationVector** inputs, Task& task)
   smokevis::RequireMemoryForLight(blocks, this->Bands);
 
   task.Description = smokevis::BuildScene(blocks, task.Options);
+  this->WarnOfPartedSigns(blocks);
   this->Refine(task);
   task.Description.LeapsClearAir = this->SkipNeedlessWork;
   if (this->Bands == RGB && this->SkipNeedlessWork && smokevis::BandsAreEqual(task.Description))

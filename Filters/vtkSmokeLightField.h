@@ -216,6 +216,8 @@ private:
   /// Warns where an input of surfaces is more than a hundred times larger or smaller than the
   /// smoke.
   void WarnOfUnits(const smokevis::SceneBlocks& blocks, vtkInformationVector* surfaces);
+  /// Warns of signs that rather are two with the same id.
+  void WarnOfPartedSigns(const smokevis::SceneBlocks& blocks);
   /// Warns where a part of the smoke's cells is too coarse for what it is to tell.
   void WarnOfCoarseCells(const smokevis::LightField& field, const smokevis::SceneBlocks& blocks);
   /// What the properties, and the smoke's own albedo, make of the scene.

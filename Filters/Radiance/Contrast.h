@@ -35,7 +35,7 @@ struct SignMeasurement
   double PerceivedContrast = 0.0;
   double PerceivedContrastError = 0.0;
   double PerceivedContrastDivisionError = 0.0;
-  /// (lit - unlit) / unlit.
+  /// (lit - unlit) / unlit; 0 where nothing unlit shows, or what does sends no light.
   double WebberContrast = 0.0;
   /// (lit - unlit) / lit; 0 where nothing unlit shows.
   double UL924Contrast = 0.0;

@@ -75,10 +75,18 @@ bool LightSight::Small(const LightGroup& group, const Vec3& point)
 
 bool LightSight::Crossed(const LightGroup& group) const
 {
-  const Vec3 middle = this->Before(group, {0.5, 0.5});
-  return std::any_of(CornerPlaces.begin(), CornerPlaces.end(),
-    [&](const glm::dvec2& corner)
-    { return !this->Shapes_.Visible(middle, this->Before(group, corner)); });
+  // A wall may go right through the middle: corners look at each other, too.
+  for (auto one = CornerPlaces.begin(); one != CornerPlaces.end(); ++one)
+  {
+    const Vec3 from = this->Before(group, *one);
+    if (std::any_of(std::next(one), CornerPlaces.end(),
+          [&](const glm::dvec2& other)
+          { return !this->Shapes_.Visible(from, this->Before(group, other)); }))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 Vec3 LightSight::Before(const LightGroup& group, const glm::dvec2& place) const

@@ -28,8 +28,8 @@ public:
 
   /// Whether a group is seen whole or not at all, for it is far and nothing crosses it.
   static bool Small(const LightGroup& group, const Vec3& point);
-  /// Whether something stands on the plate of a group, or goes through it, between its middle and
-  /// its corners.
+  /// Whether something stands on the plate of a group, or goes through it, between any two of its
+  /// middle and its corners.
   bool Crossed(const LightGroup& group) const;
   /// Places, as evenly spread as edges of shadows ask for, that tell what is seen of a close group.
   static std::span<const glm::dvec2> Lattice();

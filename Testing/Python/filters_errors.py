@@ -135,6 +135,20 @@ def check_views():
         assert messages.count("Warning", "vtkSmokeLightField") == warnings, messages.text
         assert ("MaximumRefinedCells" in messages.text) == (warnings == 1), messages.text
 
+    # Two sources that keep the same SignId make one sign, which nobody means; the pieces of one
+    # sign may come from two sources.
+    for place, sign_id, warnings in (([1.0, 0.95, 0.5], 0, 1), ([1.0, 0.95, 0.5], 1, 0),
+                                     ([1.95, 0.6, 0.5], 0, 0)):
+        signs = [simple.ExitSign(Center=[1.95, 0.5, 0.5], Normal=[-1, 0, 0], Width=0.1, Height=0.1),
+                 simple.ExitSign(Center=place, Normal=[-1, 0, 0], Width=0.1, Height=0.1,
+                                 SignId=sign_id)]
+        two = simple.SmokeLightField(Smoke=producer(image(CELLS, SIZE), "Smoke"), Emitters=signs,
+                                     Tolerance=0.1)
+        with scenes.Messages() as messages:
+            fetch(two)
+        assert messages.count("Warning", "vtkSmokeLightField") == warnings, messages.text
+        assert ("SignId 0" in messages.text) == (warnings == 1), messages.text
+
     # Smoke inside the obstruction is none: its cells are solid.
     solid = image((20, 10, 10), SIZE)
     extinction = scenes.cell_array(solid, "Extinction").reshape(10, 10, 20)
