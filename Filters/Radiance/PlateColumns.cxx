@@ -80,6 +80,16 @@ PlateColumns PlateColumns::DividedAt(const std::vector<double>& borders) const
   return divided;
 }
 
+PlateColumns PlateColumns::Halved() const
+{
+  std::vector<double> middles;
+  for (std::size_t i = 1; i < this->Ends.size(); ++i)
+  {
+    middles.push_back(0.5 * (this->Ends[i - 1] + this->Ends[i]));
+  }
+  return this->DividedAt(middles);
+}
+
 std::vector<PlateColumns::Piece> PlateColumns::PiecesOf(double middle, double length) const
 {
   const double begin = middle - 0.5 * length;

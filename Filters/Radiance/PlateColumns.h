@@ -33,6 +33,8 @@ struct PlateColumns
   double Between(std::size_t column, double t) const;
   /// The same with further borders inside columns.
   PlateColumns DividedAt(const std::vector<double>& borders) const;
+  /// The same with each in two halves.
+  PlateColumns Halved() const;
 
   /// What lies in one column of a stretch.
   struct Piece

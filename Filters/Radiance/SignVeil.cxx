@@ -42,6 +42,11 @@ constexpr double WideColumn = 0.225;
 constexpr double LeastJump = 0.2;
 constexpr double SmallestPart = 0.01;
 
+/// Up to this tolerance columns and rows are halved, while there are no more parts of the pattern:
+/// what glows close to it falls off towards the ends of bars, and changes most beside their edges.
+constexpr double FineTolerance = 0.02;
+constexpr std::size_t MostParts = 32;
+
 /// The batches of all that the smoke adds along a ray [cd/m2].
 Lanes VeilOf(const RayLight& light)
 {
@@ -163,21 +168,41 @@ PlateVeil::PlateVeil(const View& view, const Vec3& eye, int band,
   {
     ahead = std::min(ahead, way.Light.Veil());
   }
-  this->Near_.resize(columns.Count() * rows.Count());
-  for (std::size_t row = 0; row < rows.Count(); ++row)
+  if (view.Field().Tolerance <= FineTolerance)
   {
-    for (std::size_t column = 0; column < columns.Count(); ++column)
+    this->Halve(sign);
+  }
+  this->Near_.resize(this->Columns_.Count() * this->Rows_.Count());
+  for (std::size_t row = 0; row < this->Rows_.Count(); ++row)
+  {
+    for (std::size_t column = 0; column < this->Columns_.Count(); ++column)
     {
       for (std::size_t node = 0; node < Nodes; ++node)
       {
         const Vec3 to =
-          OnPlate(sign, columns.Node(column, node % 2), rows.Node(row, node / 2)) - eye;
+          OnPlate(sign, this->Columns_.Node(column, node % 2), this->Rows_.Node(row, node / 2)) -
+          eye;
         const double distance = glm::length(to);
         const Vec3 direction = to / distance;
         const RayLight light =
           this->Trace(direction, std::max(0.0, distance - reachOf(direction)), distance, ahead);
-        this->Near_[row * columns.Count() + column][node] = VeilOf(light);
+        this->Near_[row * this->Columns_.Count() + column][node] = VeilOf(light);
       }
+    }
+  }
+}
+
+void PlateVeil::Halve(const Sign& sign)
+{
+  const double across = this->Columns_.Widest * glm::length(sign.Corners[1] - sign.Corners[0]);
+  const double up = this->Rows_.Widest * glm::length(sign.Corners[3] - sign.Corners[0]);
+  PlateColumns& longer = across > up ? this->Columns_ : this->Rows_;
+  PlateColumns& other = across > up ? this->Rows_ : this->Columns_;
+  for (PlateColumns* const parts : {&longer, &other})
+  {
+    if (2 * this->Columns_.Count() * this->Rows_.Count() <= MostParts)
+    {
+      *parts = parts->Halved();
     }
   }
 }
@@ -245,17 +270,23 @@ Lanes PlateVeil::At(std::size_t place) const
   const glm::dvec2& at = this->Places_[place].OnPlate;
   const auto u = QuadraticWeights(at.x);
   const auto v = QuadraticWeights(at.y);
-  const std::size_t column = this->Columns_.Of(at.x);
-  const std::size_t row = this->Rows_.Of(at.y);
-  // Linear through the nodes of the column and row: its mean over them stays theirs.
-  const double right = this->Columns_.Between(column, at.x);
-  const double upper = this->Rows_.Between(row, at.y);
+  const glm::dvec2& size = this->Places_[place].Size;
   Lanes veil;
-  for (std::size_t node = 0; node < Nodes; ++node)
+  for (const PlateColumns::Piece& row : this->Rows_.PiecesOf(at.y, size.y))
   {
-    const double share =
-      (node % 2 == 0 ? 1.0 - right : right) * (node / 2 == 0 ? 1.0 - upper : upper);
-    Add(veil, this->Near_[row * this->Columns_.Count() + column][node], static_cast<float>(share));
+    for (const PlateColumns::Piece& column : this->Columns_.PiecesOf(at.x, size.x))
+    {
+      // Linear through the nodes of the column and row: its mean over them stays theirs.
+      const double right = this->Columns_.Between(column.Column, column.Middle());
+      const double upper = this->Rows_.Between(row.Column, row.Middle());
+      const auto& nodes = this->Near_[row.Column * this->Columns_.Count() + column.Column];
+      for (std::size_t node = 0; node < Nodes; ++node)
+      {
+        const double share = column.Share * row.Share * (node % 2 == 0 ? 1.0 - right : right) *
+                             (node / 2 == 0 ? 1.0 - upper : upper);
+        Add(veil, nodes[node], static_cast<float>(share));
+      }
+    }
   }
   double steady = 0.0;
   for (int j = 0; j < 3; ++j)

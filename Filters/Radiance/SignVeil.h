@@ -67,7 +67,7 @@ protected:
 /// Veil over the whole plate. Far from the plate the smoke's light varies slowly over it and is
 /// interpolated between three by three rays, of which six tell the others where it hardly bends.
 /// Close to the plate the smoke glows in the pattern's shape, so that each column and row of it
-/// gets rays of its own.
+/// gets rays of its own, and each half of it where little noise is asked for and there are few.
 class PlateVeil : public SignVeil
 {
 public:
@@ -83,12 +83,14 @@ private:
   /// Tells the light of three ways from that of the others, if the veil bends little enough over
   /// the plate. Returns whether it does.
   bool TellRest();
+  /// Takes halves of the columns and rows, those that are longer first, while they are few.
+  void Halve(const Sign& sign);
 
   /// Of the two Gauss points of a column by those of a row.
   static constexpr std::size_t Nodes = 4;
 
-  const PlateColumns& Columns_;
-  const PlateColumns& Rows_;
+  /// Of the pattern, or halves of these.
+  PlateColumns Columns_, Rows_;
   /// What is added close to the plate, at the nodes of each column of each row.
   std::vector<std::array<Lanes, Nodes>> Near_;
 };
