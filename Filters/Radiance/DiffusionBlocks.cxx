@@ -30,9 +30,10 @@ constexpr double Aside = 1e-6;
 constexpr double MostEscapes = 0.98;
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
-/// Relative residual to which the equation is solved: sweeps mend the rest. Some two hundred
-/// iterations do.
-constexpr double SolverTolerance = 1e-3;
+/// Relative residual to which the equation is solved: deep in smoke light is a billionth of what it
+/// is where it comes in, and sweeps would take hundreds to mend it there. Some hundred iterations
+/// do.
+constexpr double SolverTolerance = 1e-10;
 constexpr int MostIterations = 2000;
 /// Share of what blocks that pass light to each other take up and pass on that is lost where any
 /// is.

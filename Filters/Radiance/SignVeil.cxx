@@ -44,7 +44,7 @@ constexpr double SmallestPart = 0.01;
 
 /// Up to this tolerance columns and rows are halved, while there are no more parts of the pattern:
 /// what glows close to it falls off towards the ends of bars, and changes most beside their edges.
-constexpr double FineTolerance = 0.02;
+constexpr double FineTolerance = 0.05;
 constexpr std::size_t MostParts = 32;
 
 /// The batches of all that the smoke adds along a ray [cd/m2].
