@@ -78,7 +78,7 @@ std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitte
 }
 
 //------------------------------------------------------------------------------
-std::vector<PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters)
+std::map<int, PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters)
 {
   // The first block that has a sign, and where.
   std::map<int, std::pair<const SurfaceBlock*, Box>> firsts;
@@ -91,16 +91,11 @@ std::vector<PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitter
       const double gap = GapBetween(others, bounds);
       if (gap > std::max(glm::length(others.Size()), glm::length(bounds.Size())))
       {
-        parted.try_emplace(id, PartedSign{id, first->Name, block.Name, gap});
+        parted.try_emplace(id, PartedSign{first->Name, block.Name, gap});
       }
     }
   }
-  std::vector<PartedSign> found;
-  for (const auto& [id, sign] : parted)
-  {
-    found.push_back(sign);
-  }
-  return found;
+  return parted;
 }
 
 //------------------------------------------------------------------------------

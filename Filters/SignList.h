@@ -25,14 +25,13 @@ std::map<int, std::string> ReadSignNames(const std::vector<SurfaceBlock>& emitte
 /// A sign of which two blocks have parts that lie farther apart than either is large.
 struct PartedSign
 {
-  int Id = 0;
   std::string One, Other;
   /// Between the boxes around the parts [m].
   double Gap = 0.0;
 };
 
-/// Such signs among emitters, once each: rather two signs that were given one id.
-std::vector<PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters);
+/// Such signs among emitters, by id: rather two signs that were given the same.
+std::map<int, PartedSign> FindPartedSigns(const std::vector<SurfaceBlock>& emitters);
 
 /// The signs of a scene.
 SignList ListSigns(const Scene& scene, const std::map<int, std::string>& names);

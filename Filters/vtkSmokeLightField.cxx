@@ -184,10 +184,10 @@ void vtkSmokeLightField::WarnOfUnits(const SceneBlocks& blocks, vtkInformationVe
 //------------------------------------------------------------------------------
 void vtkSmokeLightField::WarnOfPartedSigns(const SceneBlocks& blocks)
 {
-  for (const smokevis::PartedSign& sign : smokevis::FindPartedSigns(blocks.Emitters))
+  for (const auto& [id, sign] : smokevis::FindPartedSigns(blocks.Emitters))
   {
     vtkWarningMacro(<< "Emitters: '" << sign.One << "' and '" << sign.Other
-                    << "' both have cells of SignId " << sign.Id << ", " << sign.Gap
+                    << "' both have cells of SignId " << id << ", " << sign.Gap
                     << " m apart, which are measured as one sign. Give each sign a SignId of its "
                     << "own.");
   }

@@ -31,9 +31,10 @@ constexpr double MostEscapes = 0.98;
 /// Areas that differ by less are those of cells of one size.
 constexpr double SameSize = 1e-6;
 /// Relative residual to which the equation is solved: deep in smoke light is a billionth of what it
-/// is where it comes in, and sweeps would take hundreds to mend it there. Some hundred iterations
-/// do.
+/// is where it comes in, and it would take hundreds of sweeps to mend it there. Where hardly any
+/// light is lost that may not be reached; to the larger one sweeps mend the rest.
 constexpr double SolverTolerance = 1e-10;
+constexpr double LargestResidual = 1e-3;
 constexpr int MostIterations = 2000;
 /// Share of what blocks that pass light to each other take up and pass on that is lost where any
 /// is.
@@ -331,7 +332,7 @@ void DiffusionBlocks::CompleteSums(double step, BatchState& batch) const
   solver.compute(this->Operator_);
   const Eigen::VectorXd lacks = step * solver.solve(residual);
   // Where it is not solved, sweeps build the light up by themselves.
-  if (solver.info() == Eigen::Success)
+  if (solver.error() <= LargestResidual)
   {
     for (Eigen::Index block = 0; block < lacks.size(); ++block)
     {

@@ -76,17 +76,15 @@ bool LightSight::Small(const LightGroup& group, const Vec3& point)
 bool LightSight::Crossed(const LightGroup& group) const
 {
   // A wall may go right through the middle: corners look at each other, too.
+  std::vector<LineOfSight> lines;
   for (auto one = CornerPlaces.begin(); one != CornerPlaces.end(); ++one)
   {
-    const Vec3 from = this->Before(group, *one);
-    if (std::any_of(std::next(one), CornerPlaces.end(),
-          [&](const glm::dvec2& other)
-          { return !this->Shapes_.Visible(from, this->Before(group, other)); }))
+    for (auto other = std::next(one); other != CornerPlaces.end(); ++other)
     {
-      return true;
+      lines.push_back({this->Before(group, *one), this->Before(group, *other)});
     }
   }
-  return false;
+  return OfSeen(this->Shapes_.Visible(lines)) != Sight::Whole;
 }
 
 Vec3 LightSight::Before(const LightGroup& group, const glm::dvec2& place) const
