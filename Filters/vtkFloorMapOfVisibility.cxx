@@ -205,6 +205,30 @@ void vtkFloorMapOfVisibility::AddProperties(smokevis::Agreement& agreement) cons
 }
 
 //------------------------------------------------------------------------------
+void vtkFloorMapOfVisibility::WarnOfPlacesOutside(const smokevis::FloorMap& map,
+  const smokevis::FloorMapOptions& options, const smokevis::View& view)
+{
+  if (std::any_of(map.Status.begin(), map.Status.end(),
+        [](smokevis::PlaceStatus status) { return status != smokevis::PlaceStatus::NoSignInView; }))
+  {
+    return;
+  }
+  const Vec3 lower = view.TheScene().Smoke().Lower();
+  const Vec3 upper = view.TheScene().Smoke().Upper();
+  const Vec3 first = options.EyeAt(0);
+  const Vec3 last = options.EyeAt(map.Status.size() - 1);
+  if (glm::all(glm::lessThanEqual(first, upper)) && glm::all(glm::lessThanEqual(lower, last)))
+  {
+    return;
+  }
+  vtkWarningMacro(<< "No sign is in view from any place, and all are outside of the smoke: eyes at "
+                  << first.x << " to " << last.x << ", " << first.y << " to " << last.y << " and "
+                  << first.z << " m, smoke at " << lower.x << " to " << upper.x << ", " << lower.y
+                  << " to " << upper.y << " and " << lower.z << " to " << upper.z
+                  << " m. Give the area in metres, in the coordinates of the smoke.");
+}
+
+//------------------------------------------------------------------------------
 void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output)
 {
   const smokevis::Ranks ranks;
@@ -250,6 +274,8 @@ void vtkFloorMapOfVisibility::Compute(vtkDataObject* input, vtkImageData* output
     map.Report.push_back({"seconds of process " + std::to_string(rank), seconds[rank],
       "for " + std::to_string(end - first) + " places"});
   }
+
+  this->WarnOfPlacesOutside(map, options, *view);
 
   output->SetOrigin(options.FirstPlace.x, options.FirstPlace.y, options.FirstPlace.z);
   output->SetSpacing(options.StepX, options.StepY, 1.0);

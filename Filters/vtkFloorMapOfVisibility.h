@@ -36,6 +36,7 @@
 namespace smokevis
 {
 class Agreement;
+struct FloorMap;
 struct FloorMapOptions;
 class Medium;
 class View;
@@ -199,6 +200,9 @@ private:
   /// Checks what is asked for against the light field.
   smokevis::FloorMapOptions Prepare(const smokevis::View& view) const;
   void AddProperties(smokevis::Agreement& agreement) const;
+  /// An area that was meant in other units, or in another place, shows no sign.
+  void WarnOfPlacesOutside(const smokevis::FloorMap& map, const smokevis::FloorMapOptions& options,
+    const smokevis::View& view);
   void Compute(vtkDataObject* input, vtkImageData* output);
 
   double EyeHeight = 1.7;

@@ -136,7 +136,7 @@ int vtkSmokeLightField::RequestUpdateExtent(
 void vtkSmokeLightField::CheckProperties() const
 {
   smokevis::Check(
-    this->Albedo <= 1.0, "Albedo", "it is above 1", "Give 0 to 1, or -1 for the smoke's own");
+    this->Albedo <= 1.0, "Albedo", "it is not at most 1", "Give 0 to 1, or -1 for the smoke's own");
   smokevis::Check(std::abs(this->AngstromExponent) <= 10.0, "AngstromExponent",
     "it is outside -10 to 10", "Give 1 for soot of flaming fires");
   smokevis::Check(this->Bands == LUMINANCE || this->Bands == RGB, "Bands", "it is neither 1 nor 3",

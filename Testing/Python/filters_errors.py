@@ -76,7 +76,8 @@ def check_light_field():
     field_error("cell array Luminance of block 'Emitters'", "cell 2 is -2",
                 emitters=[producer(lamp, "Lamp")])
 
-    field_error("Albedo", Albedo=1.5)
+    field_error("Albedo", "not at most 1", Albedo=1.5)
+    field_error("Albedo", "not at most 1", Albedo=math.nan)
     field_error("Tolerance", Tolerance=0)
     field_error("DefaultReflectance", DefaultReflectance=-0.1)
     field_error("Raise PatchSize", PatchSize=1e-6)
@@ -114,6 +115,18 @@ def check_views():
     floor("not between floor and ceiling", EyeHeight=1.7)
     floor("lower bound", Bounds=[0, 1, 0, -1, 0, 1])
     floor("ContrastThreshold", ContrastThreshold=-1)
+
+    # An area that no place of is in the smoke or sees a sign may be meant in other units: a warning.
+    for bounds, warnings in (([2000, 3000, 200, 800, 0, 1000], 1), ([-3, -2, 0, 1, 0, 1], 1),
+                             ([0.2, 0.8, 0.2, 0.8, 0, 1], 0)):
+        floor_map = simple.FloorMapOfVisibility(LightField=light, EyeHeight=0.5, Bounds=bounds,
+                                                Resolution=[3, 2])
+        with scenes.Messages() as messages:
+            data = fetch(floor_map)
+        assert data.GetNumberOfPoints() == 6
+        assert messages.count("Warning", "vtkFloorMapOfVisibility") == warnings, messages.text
+        assert ("outside of the smoke" in messages.text) == (warnings == 1), messages.text
+        simple.Delete(floor_map)
 
     # A sign behind the eye, seen from its back or hidden is no error but a warning.
     view = simple.VisibilityImage(LightField=light, CameraPosition=[0.2, 0.5, 0.5], TargetSign=0,
