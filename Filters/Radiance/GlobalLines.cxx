@@ -143,8 +143,8 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const auto stretch = [&](const Box& box)
   {
     std::pair<double, double> ends(-Infinity, Infinity);
-    box.Clip(line.Origin, inverse, ends.first, ends.second);
-    return ends;
+    const bool meets = box.Clip(line.Origin, inverse, ends.first, ends.second);
+    return meets ? ends : std::pair(0.0, 0.0);
   };
   double density = kinds.front().Density();
   for (auto other = kinds.begin() + 1; other != kinds.end(); ++other)
