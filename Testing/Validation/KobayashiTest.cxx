@@ -146,21 +146,21 @@ TEST(Kobayashi, PureAbsorber)
   }
 }
 
-// Half scattering, at the default tolerance: 0.5 % or three standard errors of the reference,
-// whichever is more, with nothing added for the solver's own noise (0.12 % at most, deep in the
-// shield). Means over cells of a third of a mean free path blur what changes within them: at most
-// 0.3 %, in the void's corner, where it falls with the square of the cells (0.7 % with 40 of them).
+// Half scattering: 0.5 % or three standard errors of the reference, whichever is more, with nothing
+// added for the solver's own noise (0.18 % at most, deep in the shield). Means over cells of a
+// third of a mean free path blur what changes within them: at most 0.3 %, in the void's corner,
+// where it falls with the square of the cells (0.7 % with 40 of them).
 TEST(Kobayashi, HalfScattering)
 {
   report::Head("Kobayashi problem 1, half scattering");
-  for (const Row& row : Solve(Problem1(0.5, 60), 0.01, 100000, "phi_ii_ref", "relsd_ii_ref"))
+  for (const Row& row : Solve(Problem1(0.5, 60), 0.015, 100000, "phi_ii_ref", "relsd_ii_ref"))
   {
     report::Relative(row.Name, row.Reference, row.Fluence.Mean, 0.005,
       std::hypot(row.Fluence.StandardError, row.ReferenceError));
     EXPECT_LE(std::abs(row.Fluence.Mean - row.Reference),
       std::max(0.005 * row.Reference, 3.0 * row.ReferenceError))
       << row.Name;
-    EXPECT_LT(row.Fluence.StandardError, 0.002 * row.Reference);
+    EXPECT_LT(row.Fluence.StandardError, 0.0025 * row.Reference);
   }
 }
 
