@@ -1,6 +1,7 @@
 #include "vtkFloorMapOfVisibility.h"
 
 #include "Agreement.h"
+#include "Box.h"
 #include "Errors.h"
 #include "EyeProperties.h"
 #include "FloorMap.h"
@@ -208,23 +209,20 @@ void vtkFloorMapOfVisibility::AddProperties(smokevis::Agreement& agreement) cons
 void vtkFloorMapOfVisibility::WarnOfPlacesOutside(const smokevis::FloorMap& map,
   const smokevis::FloorMapOptions& options, const smokevis::View& view)
 {
-  if (std::any_of(map.Status.begin(), map.Status.end(),
-        [](smokevis::PlaceStatus status) { return status != smokevis::PlaceStatus::NoSignInView; }))
-  {
-    return;
-  }
-  const Vec3 lower = view.TheScene().Smoke().Lower();
-  const Vec3 upper = view.TheScene().Smoke().Upper();
-  const Vec3 first = options.EyeAt(0);
-  const Vec3 last = options.EyeAt(map.Status.size() - 1);
-  if (glm::all(glm::lessThanEqual(first, upper)) && glm::all(glm::lessThanEqual(lower, last)))
+  const smokevis::Medium& medium = view.TheScene().Smoke();
+  const smokevis::Box smoke{medium.Lower(), medium.Upper()};
+  const smokevis::Box eyes{options.EyeAt(0), options.EyeAt(map.Status.size() - 1)};
+  const bool shows = std::any_of(map.Status.begin(), map.Status.end(),
+    [](smokevis::PlaceStatus status) { return status != smokevis::PlaceStatus::NoSignInView; });
+  if (shows || smoke.Meets(eyes))
   {
     return;
   }
   vtkWarningMacro(<< "No sign is in view from any place, and all are outside of the smoke: eyes at "
-                  << first.x << " to " << last.x << ", " << first.y << " to " << last.y << " and "
-                  << first.z << " m, smoke at " << lower.x << " to " << upper.x << ", " << lower.y
-                  << " to " << upper.y << " and " << lower.z << " to " << upper.z
+                  << eyes.Lower.x << " to " << eyes.Upper.x << ", " << eyes.Lower.y << " to "
+                  << eyes.Upper.y << " and " << eyes.Lower.z << " m, smoke at " << smoke.Lower.x
+                  << " to " << smoke.Upper.x << ", " << smoke.Lower.y << " to " << smoke.Upper.y
+                  << " and " << smoke.Lower.z << " to " << smoke.Upper.z
                   << " m. Give the area in metres, in the coordinates of the smoke.");
 }
 
