@@ -21,8 +21,12 @@ namespace smokevis
 namespace
 {
 
+constexpr double BrightShare = 0.7;
+/// Of light that flames send out: what is left comes from cells around, which may be where it gets
+/// farthest, as below a layer of smoke.
+constexpr double GlowingShare = 0.9;
 /// Roundings must not decide whether a cell more is needed for the share.
-constexpr double BrightShare = 0.7 * (1.0 - 1e-6);
+constexpr double RoundingShare = 1.0 - 1e-6;
 constexpr std::size_t MostBodies = 8;
 /// Before those that fit into one box are joined: flames lie about in pieces.
 constexpr std::size_t MostParts = 64;
@@ -62,8 +66,8 @@ std::vector<std::uint16_t> StepsOf(const FirstSource& source, std::size_t cells)
   return steps;
 }
 
-/// Leaves steps only to the brightest cells that together make BrightShare of the light.
-void KeepBright(const FirstSource& source, std::vector<std::uint16_t>& steps)
+/// Leaves steps only to the brightest cells that together make a share of the light.
+void KeepBright(const FirstSource& source, double share, std::vector<std::uint16_t>& steps)
 {
   const std::vector<double> powers = ReduceCells(
     steps.size(), std::vector<double>(MostSteps + 1, 0.0),
@@ -79,7 +83,7 @@ void KeepBright(const FirstSource& source, std::vector<std::uint16_t>& steps)
       std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
       return a;
     });
-  const double wanted = BrightShare * std::accumulate(powers.begin(), powers.end(), 0.0);
+  const double wanted = share * RoundingShare * std::accumulate(powers.begin(), powers.end(), 0.0);
   std::uint16_t most = 0;
   for (double sum = powers[0]; sum < wanted && most < MostSteps; sum += powers[most])
   {
@@ -146,19 +150,17 @@ std::vector<BrightBody> Connected(
   return bodies;
 }
 
-} // namespace
-
-std::vector<BrightBody> BrightBodies(
-  const Scene& scene, const LightField& field, int band, const Box& outer)
+/// @param share of the source's light that the bodies make together
+/// @param whole what their own is a share of [lm]
+std::vector<BrightBody> BodiesOf(
+  const Scene& scene, const FirstSource& source, double share, double whole)
 {
-  const FirstSource source(scene, field, band);
-  const double whole = source.Whole(outer);
   if (!(whole > 0.0) || !std::isfinite(whole))
   {
     return {};
   }
   std::vector<std::uint16_t> steps = StepsOf(source, scene.Smoke().Cells());
-  KeepBright(source, steps);
+  KeepBright(source, share, steps);
   std::vector<BrightBody> bodies = Connected(scene.Smoke(), source, std::move(steps));
   KeepStrongest(bodies, MostParts);
   JoinWhereSmaller(
@@ -174,6 +176,26 @@ std::vector<BrightBody> BrightBodies(
     body.Share /= whole;
   }
   return bodies;
+}
+
+} // namespace
+
+std::vector<BrightBody> BrightBodies(
+  const Scene& scene, const LightField& field, int band, const Box& outer)
+{
+  const FirstSource source(scene, field, band);
+  return BodiesOf(scene, source, BrightShare, source.Whole(outer));
+}
+
+std::vector<BrightBody> GlowingBodies(
+  const Scene& scene, const LightField& field, int band, const Box& outer)
+{
+  if (!scene.Smoke().Emits())
+  {
+    return {};
+  }
+  const FirstSource source(scene, field, band);
+  return BodiesOf(scene, source.WithoutScattering(), GlowingShare, source.Whole(outer));
 }
 
 } // namespace smokevis

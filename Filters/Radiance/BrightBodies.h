@@ -27,5 +27,8 @@ struct BrightBody
 /// @param outer box around the scene
 std::vector<BrightBody> BrightBodies(
   const Scene& scene, const LightField& field, int band, const Box& outer);
+/// The same of nine tenths of what smoke emits alone. None where it emits nothing.
+std::vector<BrightBody> GlowingBodies(
+  const Scene& scene, const LightField& field, int band, const Box& outer);
 
 } // namespace smokevis

@@ -18,6 +18,13 @@ class FirstSource
 public:
   /// @param field holds the direct light; it and the scene must outlive this
   FirstSource(const Scene& scene, const LightField& field, int band);
+  /// The same without what smoke scatters.
+  FirstSource WithoutScattering() const
+  {
+    FirstSource rest = *this;
+    rest.Scatters_ = 0.0;
+    return rest;
+  }
 
   /// Of a smoke cell [lm/m3].
   double PerVolume(std::int64_t cell) const

@@ -44,12 +44,12 @@ void DrawThrough(const Box& box, const std::array<double, 4>& random, Vec3& orig
   direction[v] = sine * std::sin(angle);
 }
 
-/// A line through two places anywhere in a box.
-void DrawJoining(const Box& box, const std::array<double, 6>& random, Vec3& origin, Vec3& direction)
+/// A line through two places anywhere in two boxes.
+void DrawJoining(const Box& from, const Box& to, const std::array<double, 6>& random, Vec3& origin,
+  Vec3& direction)
 {
-  const Vec3 size = box.Size();
-  origin = box.Lower + Vec3(random[0], random[1], random[2]) * size;
-  const Vec3 way = box.Lower + Vec3(random[3], random[4], random[5]) * size - origin;
+  origin = from.Lower + Vec3(random[0], random[1], random[2]) * from.Size();
+  const Vec3 way = to.Lower + Vec3(random[3], random[4], random[5]) * to.Size() - origin;
   const double length = glm::length(way);
   direction = length > 0.0 ? way / length : Vec3(1.0, 0.0, 0.0);
 }
@@ -71,21 +71,21 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
   this->Kinds_.push_back({inner, lines, this->Count() + lines});
 }
 
-void GlobalLines::AddJoining(const Box& inner, std::size_t lines)
+void GlobalLines::AddJoining(const Box& from, const Box& to, std::size_t lines)
 {
-  this->Kinds_.push_back({inner, lines, this->Count() + lines, true});
+  this->Kinds_.push_back({from, lines, this->Count() + lines, true, to});
 }
 
-double GlobalLines::Kind::DensityAt(double length) const
+double GlobalLines::Kind::DensityAt(const Stretch& through, const Stretch& with) const
 {
-  if (!this->Joins)
-  {
-    return this->Density();
-  }
-  // Pairs of places are as many as pairs along each line times the square of their distance, which
-  // over all pairs on a line adds up to a sixth of the fourth power of its length (Santalo 1976).
-  const double share = length * length / this->Through.Volume();
-  return glm::half_pi<double>() * static_cast<double>(this->Lines) * share * share / 6.0;
+  // Pairs of places are as many as pairs along each line times the square of their distance
+  // (Santalo 1976), which is the second derivative by both of a twelfth of its fourth power.
+  const auto fourth = [](double distance) { return distance * distance * distance * distance; };
+  const double pairs = (fourth(through.Leave - with.Enter) + fourth(through.Enter - with.Leave) -
+                         fourth(through.Leave - with.Leave) - fourth(through.Enter - with.Enter)) /
+                       12.0;
+  return glm::half_pi<double>() * static_cast<double>(this->Lines) * std::max(0.0, pairs) /
+         (this->Through.Volume() * this->With.Volume());
 }
 
 GlobalLines GlobalLines::Thinned(double share) const
@@ -96,7 +96,8 @@ GlobalLines GlobalLines::Thinned(double share) const
   for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
   {
     const std::size_t lines = part(*kind);
-    thinned.Kinds_.push_back({kind->Through, lines, thinned.Count() + lines, kind->Joins});
+    thinned.Kinds_.push_back(
+      {kind->Through, lines, thinned.Count() + lines, kind->Joins, kind->With});
   }
   return thinned;
 }
@@ -133,7 +134,8 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   Line line;
   if (drawn->Joins)
   {
-    DrawJoining(drawn->Through, this->Pairs_[kind].Point(own), line.Origin, line.Direction);
+    DrawJoining(
+      drawn->Through, drawn->With, this->Pairs_[kind].Point(own), line.Origin, line.Direction);
   }
   else
   {
@@ -142,15 +144,19 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const Vec3 inverse = 1.0 / line.Direction;
   const auto stretch = [&](const Box& box)
   {
-    std::pair<double, double> ends(-Infinity, Infinity);
-    const bool meets = box.Clip(line.Origin, inverse, ends.first, ends.second);
-    return meets ? ends : std::pair(0.0, 0.0);
+    Stretch ends{-Infinity, Infinity};
+    return box.Clip(line.Origin, inverse, ends.Enter, ends.Leave) ? ends : Stretch{};
   };
   double density = kinds.front().Density();
   for (auto other = kinds.begin() + 1; other != kinds.end(); ++other)
   {
+    if (other->Joins)
+    {
+      density += other->DensityAt(stretch(other->Through), stretch(other->With));
+      continue;
+    }
     const auto [enter, leave] = stretch(other->Through);
-    density += other == drawn || leave > enter ? other->DensityAt(leave - enter) : 0.0;
+    density += other == drawn || leave > enter ? other->Density() : 0.0;
   }
   const auto [begin, end] = stretch(kinds.front().Through);
   line.Origin += begin * line.Direction;

@@ -41,10 +41,11 @@ public:
   /// @param inner box inside the scene's
   /// @param lines through it, beside all others
   void AddInner(const Box& inner, std::size_t lines);
-  /// Lines that join two places anywhere in a box: far ones as often as near ones.
-  /// @param inner box inside the scene's
+  /// Lines that join a place anywhere in one box with one anywhere in another: far ones as often as
+  /// near ones.
+  /// @param from, to boxes inside the scene's, which may be the same
   /// @param lines beside all others
-  void AddJoining(const Box& inner, std::size_t lines);
+  void AddJoining(const Box& from, const Box& to, std::size_t lines);
 
   /// The same with a share of the lines, each of which counts for more.
   GlobalLines Thinned(double share) const;
@@ -74,6 +75,11 @@ public:
   };
 
 private:
+  /// Distances at which a line enters and leaves a box: the same where it misses it [m].
+  struct Stretch
+  {
+    double Enter = 0.0, Leave = 0.0;
+  };
   /// Lines drawn through one box.
   struct Kind
   {
@@ -81,16 +87,17 @@ private:
     std::size_t Lines;
     /// Behind its last among all lines.
     std::size_t End;
-    /// Whether each joins two places in the box.
+    /// Whether each joins a place in the box with one in this other.
     bool Joins = false;
+    Box With{};
 
     /// Lines a unit of surface [1/m2]; of those that join places next to none are sure.
     double Density() const
     {
       return this->Joins ? 0.0 : static_cast<double>(this->Lines) / this->Through.Surface();
     }
-    /// The same of the lines close to one that runs so far through the box [m].
-    double DensityAt(double length) const;
+    /// The same of lines that join places, close to one that goes through the boxes like this.
+    double DensityAt(const Stretch& through, const Stretch& with) const;
   };
 
   /// The scene's first.

@@ -40,6 +40,11 @@ constexpr double BrightLines = 0.5;
 /// Lines that join places of the main box, over all others through it: in a corridor's dark layer
 /// most noise is that of the few lines which run lengthwise and bring the light of its bright end.
 constexpr double LongLines = 0.2;
+/// Lines that join places in what glows with places anywhere in the main box, over all others
+/// through that, were all light to begin there: of the lines through a flame few run far, fewer
+/// still where the air is clearest and its light comes farthest. Above FineTolerance their share
+/// falls with it: few sweeps are noisier than what other lines bring.
+constexpr double GlowLines = 0.5;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.7;
 /// Extinction coefficient of what belongs to a dense body, over the mean where light is scattered.
@@ -291,7 +296,18 @@ GlobalLines ChooseLines(const Scene& scene, const LightField& field, int band, d
   {
     addThrough(body.Bounds, bright * body.Share);
   }
-  lines.AddJoining(main, GlobalLines::AtLeast(LongLines * static_cast<double>(mainLines)));
+  lines.AddJoining(main, main, GlobalLines::AtLeast(LongLines * static_cast<double>(mainLines)));
+  const double glowing = GlowLines * fine * static_cast<double>(mainLines);
+  for (const BrightBody& body : GlowingBodies(scene, field, band, box))
+  {
+    // Of what fills the box, other lines tell as much.
+    const Box part = within(body.Bounds);
+    const double rest = 1.0 - part.Volume() / main.Volume();
+    if (rest > 0.0)
+    {
+      lines.AddJoining(part, main, GlobalLines::AtLeast(glowing * body.Share * rest));
+    }
+  }
   return lines;
 }
 

@@ -23,11 +23,17 @@ SceneDescription Duct()
 }
 
 /// Of a scene whose direct light is solved.
-std::vector<BrightBody> BodiesOf(const SceneDescription& description)
+std::vector<BrightBody> BodiesOf(
+  const SceneDescription& description, decltype(BrightBodies)* find = BrightBodies)
 {
   const Solved solved(description, 0.5);
   const Scene& scene = *solved.TheScene;
-  return BrightBodies(scene, *solved.Field, 0, {scene.Lower(), scene.Upper()});
+  return find(scene, *solved.Field, 0, {scene.Lower(), scene.Upper()});
+}
+
+std::vector<BrightBody> GlowingBodiesOf(const SceneDescription& description)
+{
+  return BodiesOf(description, GlowingBodies);
 }
 
 void Ignite(SceneDescription& scene, int x, float luminance)
@@ -166,6 +172,23 @@ TEST(BrightBodies, BeforeALamp)
   const std::vector<BrightBody> walled = BodiesOf(scene);
   ASSERT_EQ(walled.size(), 1U);
   EXPECT_LT(walled[0].Share, 0.7 * alone[0].Share);
+}
+
+// A lamp is brighter than the flame, of which one cell makes more than nine tenths.
+TEST(BrightBodies, FlamesAlone)
+{
+  SceneDescription scene = Duct();
+  EXPECT_TRUE(GlowingBodiesOf(scene).empty());
+  scene.Emitters = {scenes::Plate({0.01, 0.5, 0.5}, {1, 0, 0}, {0, 1, 0}, 0.4, 0.4, 100.0)};
+  EXPECT_TRUE(GlowingBodiesOf(scene).empty());
+  Ignite(scene, 15, 30.0F);
+  Ignite(scene, 17, 3.0F);
+  const std::vector<BrightBody> bodies = GlowingBodiesOf(scene);
+  ASSERT_EQ(bodies.size(), 1U);
+  EXPECT_LT(glm::length(bodies[0].Bounds.Lower - Vec3(7.5, 0, 0)), 1e-9);
+  EXPECT_LT(glm::length(bodies[0].Bounds.Upper - Vec3(8.0, 0.5, 0.5)), 1e-9);
+  EXPECT_GT(bodies[0].Share, 0.0);
+  EXPECT_LT(bodies[0].Share, 0.9);
 }
 
 } // namespace

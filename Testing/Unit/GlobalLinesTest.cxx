@@ -64,7 +64,9 @@ TEST(GlobalLines, ChordsFillEveryBody)
   nested.AddInner({{0.8, 0.8, 0.2}, {3.5, 2.5, 2}}, 100);
   // Lines that join places are not counted on: they come beside the others.
   GlobalLines joined = nested;
-  joined.AddJoining(smoke, 300);
+  joined.AddJoining(smoke, smoke, 300);
+  joined.AddJoining({{1, 1, 0}, {1.5, 2, 1}}, scene, 300);
+  joined.AddJoining({{0.5, 0.5, 0.1}, {3, 2, 0.4}}, smoke, 300);
   for (const GlobalLines& lines : {plain, both, nested, joined})
   {
     for (const Box& body : {inSmoke, outside, across, smoke})
@@ -109,7 +111,7 @@ TEST(GlobalLines, SomeRunFar)
   GlobalLines lines(corridor, 4000);
   // The standard deviation of a chord is about itself: five standard errors.
   EXPECT_NEAR(meanLength(lines), chord, 0.08 * chord);
-  lines.AddJoining(corridor, 4000);
+  lines.AddJoining(corridor, corridor, 4000);
   EXPECT_GT(meanLength(lines), 0.5 * (chord + 10.0));
 }
 
@@ -118,7 +120,8 @@ TEST(GlobalLines, BeginAndEndOnTheScenesBorder)
   const Box scene = {{-10, -10, -1}, {10, 10, 10}};
   GlobalLines lines(scene, 500);
   lines.AddInner({{0, 0, 0}, {1, 1, 1}}, 500);
-  lines.AddJoining({{0, 0, 0}, {1, 1, 1}}, 500);
+  lines.AddJoining({{0, 0, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 1, 1}}, 500);
+  lines.AddJoining({{0, 0, 0}, {1, 1, 1}}, scene, 500);
   const GlobalLines::Draw draw(lines, 7);
   const auto onBorder = [&scene](const Vec3& point)
   {

@@ -260,7 +260,7 @@ TEST(TeamTest, LinesWhereNoiseIs)
 {
   const Scene scene(scenes::FlameBehindADoor());
   LightFieldOptions options;
-  options.Tolerance = 0.02;
+  options.Tolerance = 0.007;
   options.Seed = 2;
   Progress progress;
   const LightField alone = SolveLightField(scene, options, progress);

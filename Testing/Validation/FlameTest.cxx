@@ -127,7 +127,7 @@ TEST(Flame, BehindADoor)
 {
   report::Head("Sign in a room that a flame lights through a door");
   const Vec3 eye(3.6, 0.8, 1.6);
-  const Solved solved(scenes::FlameBehindADoor());
+  const Solved solved(scenes::FlameBehindADoor(), 0.007);
   EXPECT_GT(WorkCount(solved.Field->Report, "boxes that more lines lead through"), 0.0);
   const SignMeasurement sign = MeasureSign(*solved.TheView, 0, eye, Observer{0.0});
   const ReferenceSign paths = MeasureByPaths(*solved.TheScene, eye, 2000);
