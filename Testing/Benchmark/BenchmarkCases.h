@@ -71,7 +71,9 @@ void ForAll(std::size_t count, int threads, const std::function<void(std::size_t
 
 /// The hall of Data/Hall with its FDS smoke, its walls in patches of at most 2 m and eight signs.
 SceneDescription Hall(double time);
-/// The same with its smoke on cells of about 0.1 m, ten million of them.
+/// The same with the light of the fire in its middle, some 50 000 lm.
+SceneDescription BurningHall(double time);
+/// The dark hall with its smoke on cells of about 0.1 m, ten million of them.
 SceneDescription FineHall(double time);
 
 /// The places of a map of the hall at eye level, 1.7 m.
@@ -86,7 +88,7 @@ FloorMapOptions OfficePlaces(int threads);
 /// tunnel: 64 x 64 pixels, error of pixels and of the veil before dark bars, beside the reference
 /// integrator.
 void RunTunnel(const Settings& settings);
-/// hall12, hall110, hall10m, office: a floor map, beside the reference integrator.
+/// hall12, hall110, hall10m, fire12, office: a floor map, beside the reference integrator.
 void RunMap(const Settings& settings, const std::string& name, const SceneDescription& scene,
   const FloorMapOptions& places);
 /// growth: time over cells, views, emitters, triangles, optical depth and albedo.

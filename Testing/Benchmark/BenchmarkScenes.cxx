@@ -1,6 +1,8 @@
 #include "BenchmarkCases.h"
 
 #include "ExtinctionSource.h"
+#include "FlameLight.h"
+#include "FlameSource.h"
 #include "Places.h"
 #include "SolidCells.h"
 #include "SrgbColor.h"
@@ -24,6 +26,8 @@ namespace
 const std::string HallFolder = std::string(SMOKEVIS_DATA_DIR) + "/Hall";
 /// Largest patch of the hall's walls [m].
 constexpr double HallPatch = 2.0;
+/// Of the fire, as the reader has it where nothing else is asked for [lm/W].
+constexpr double FlamesEfficacy = 0.05;
 
 Vec3 ToVec3(const std::array<double, 3>& point)
 {
@@ -108,6 +112,27 @@ SceneDescription Hall(double time)
   }
   AddWalls(index, time, scene.Surfaces);
   AddSigns(scene.Emitters);
+  return scene;
+}
+
+//--------------------------------------------------------------------------------------------------
+SceneDescription BurningHall(double time)
+{
+  SceneDescription scene = Hall(time);
+  const SmvFile index(HallFolder + "/fds/hall.smv");
+  FlameSource flames(index, FlameModel::LuminousEfficacy);
+  for (std::size_t mesh = 0; mesh < index.Meshes.size(); ++mesh)
+  {
+    SmokeGrid& grid = scene.Grids[mesh];
+    const int number = static_cast<int>(mesh);
+    const auto solid =
+      SolidCells(index.Meshes[mesh], PresentObstructions(index, number, time, 0.0));
+    std::vector<float> heatRelease(grid.Extinction.size());
+    flames.Read(number, time, TimeInterpolation::Nearest, solid, heatRelease);
+    grid.EmittedLuminance.resize(grid.Extinction.size());
+    SpreadFlameLight(index.Meshes[mesh], heatRelease, grid.Extinction, scene.Albedo, FlamesEfficacy,
+      grid.EmittedLuminance);
+  }
   return scene;
 }
 

@@ -26,6 +26,15 @@ const std::map<std::string, Case> Cases = {
     {[](const Settings& settings)
       { RunMap(settings, "hall12", Hall(settings.Time), HallPlaces(12, 8, settings.Threads)); },
       {.Samples = {1, 4, 16, 64, 256}}}},
+  // Finer references than this would take half an hour.
+  {"fire12", {[](const Settings& settings) {
+                RunMap(settings, "fire12", BurningHall(settings.Time),
+                  HallPlaces(12, 8, settings.Threads));
+              },
+               {.Tolerances = {0.1, 0.03, 0.01},
+                 .Samples = {1, 4, 16},
+                 .ReferenceTolerance = 0.005,
+                 .Seeds = 1}}},
   {"hall110",
     {[](const Settings& settings)
       { RunMap(settings, "hall110", Hall(settings.Time), HallPlaces(110, 70, settings.Threads)); },
@@ -106,7 +115,7 @@ void PrintUsage()
 {
   std::fprintf(stderr,
     "SmokeBenchmark --case A,B,... [options]\n"
-    "  cases: tunnel hall12 hall110 hall10m office growth threads steps skips thick\n"
+    "  cases: tunnel hall12 fire12 hall110 hall10m office growth threads steps skips thick\n"
     "  --tolerance 0.1,0.03,0.01,0.003   tolerances of the solver (tunnel, maps)\n"
     "  --samples 1,4,16,64               samples a pixel, or a point of a sign, of the reference\n"
     "                                    integrator (tunnel, maps); empty: without it\n"

@@ -43,7 +43,8 @@ def plot_tunnel(folder):
 
 def plot_maps(folder):
     """Error of contrast against time for the maps."""
-    titles = {"hall12": "hall, 12 x 8 places", "hall110": "hall, 110 x 70 places",
+    titles = {"hall12": "hall, 12 x 8 places", "fire12": "burning hall, 12 x 8 places",
+              "hall110": "hall, 110 x 70 places",
               "hall10m": "hall, 12 x 8 places, 10 million cells",
               "office": "office, 10 x 8 places"}
     maps = {name: read(folder, name) for name in titles}

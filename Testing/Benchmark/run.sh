@@ -14,7 +14,7 @@ if [ $# -gt 0 ]; then
   shift
 fi
 if [ ${#cases[@]} -eq 0 ]; then
-  cases=(tunnel hall12 hall110 hall10m office growth threads steps skips thick)
+  cases=(tunnel hall12 fire12 hall110 hall10m office growth threads steps skips thick)
 fi
 results=${SMOKEVISIBILITY_RESULTS:-Testing/Benchmark/results}
 smokevisibility_build SmokeBenchmark
