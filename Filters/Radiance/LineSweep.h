@@ -132,10 +132,14 @@ public:
   /// @param survey what some of the lines bring, if that is asked for
   void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
     const Progress& progress, LineSurvey* survey = nullptr) const;
-  /// Draws more lines from now on, which whole sweeps have beside those that they had.
+  /// Draws more lines from now on, which whole sweeps have beside those that they had: half of them
+  /// through the box, half from places in it to places anywhere in the smoke, where noise counts.
   void AddLines(const NoisyBox& box)
   {
-    this->Lines_.AddInner(box.Bounds, GlobalLines::AtLeast(box.Lines));
+    const std::size_t half = GlobalLines::AtLeast(0.5 * box.Lines);
+    const Medium& smoke = this->Scene_.Smoke();
+    this->Lines_.AddInner(box.Bounds, half);
+    this->Lines_.AddJoining(box.Bounds, {smoke.Lower(), smoke.Upper()}, half);
   }
 
 private:
