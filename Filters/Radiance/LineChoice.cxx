@@ -42,8 +42,8 @@ constexpr double BrightLines = 0.5;
 constexpr double LongLines = 0.2;
 /// Lines that join places in what glows with places anywhere in the main box, over all others
 /// through that, were all light to begin there: of the lines through a flame few run far, fewer
-/// still where the air is clearest and its light comes farthest. Above FineTolerance their share
-/// falls with it: few sweeps are noisier than what other lines bring.
+/// still where the air is clearest and its light comes farthest. Above FineTolerance there are
+/// fewer: a few sweeps there must be, which bring less noise anyway.
 constexpr double GlowLines = 0.5;
 /// Share of light inside a body of smoke that is scattered once more, from which on it is so often.
 constexpr double OftenShare = 0.7;
