@@ -40,7 +40,8 @@ BatchSweeps::BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_
   }
 }
 
-void BatchSweeps::Draw(int sweeps, bool thin, std::vector<LineSurvey>* surveys)
+void BatchSweeps::Draw(
+  int sweeps, const LineSweep::Choice& choice, std::vector<LineSurvey>* surveys)
 {
   for (const int end = this->Done_ + sweeps; this->Done_ < end;)
   {
@@ -53,12 +54,12 @@ void BatchSweeps::Draw(int sweeps, bool thin, std::vector<LineSurvey>* surveys)
           {
             const std::size_t batch = this->Team_.OwnItem(i);
             this->Sweep_.Run(this->States_[batch], this->Tallies_.local(),
-              Mix(this->Key_ + this->Done_) + batch, thin, this->Progress_,
+              Mix(this->Key_ + this->Done_) + batch, choice, this->Progress_,
               surveys ? &(*surveys)[batch] : nullptr);
           });
       });
     this->Progress_.ThrowIfStopped("light field");
-    this->LinesABatch_ += thin ? this->Sweep_.ThinLines() : this->Sweep_.Lines();
+    this->LinesABatch_ += choice.Lines.Count();
     ++this->Done_;
     this->Progress_.Report(this->Reached());
   }
@@ -84,7 +85,7 @@ std::size_t BatchSweeps::Aim(const std::vector<float>& weights)
   const std::size_t count = this->Sweep_.Lines();
   const std::size_t every = 1 + count / SurveyedLines;
   std::vector<LineSurvey> surveys(Batches, LineSurvey{weights, every, {}});
-  this->Draw(1, false, &surveys);
+  this->Draw(1, this->Sweep_.Whole(), &surveys);
   std::vector<Team::Part> parts;
   std::vector<SurveyedLine> lines;
   for (std::size_t batch = 0; batch < surveys.size(); ++batch)

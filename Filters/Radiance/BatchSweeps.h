@@ -35,10 +35,17 @@ public:
   BatchSweeps(const LightField& field, LineSweep& sweep, std::uint64_t key, Team& team,
     tbb::task_arena& arena, Progress& progress, const ProgressSpan& span);
 
-  /// Draws so many sweeps more, after which all processes have the sums of all batches. Throws
-  /// Error when the work is stopped.
-  /// @param thin whether a share of the lines is enough
-  void Draw(int sweeps, bool thin = false) { this->Draw(sweeps, thin, nullptr); }
+  /// Draws so many whole sweeps more, after which all processes have the sums of all batches.
+  /// Throws Error when the work is stopped.
+  void Draw(int sweeps) { this->Draw(sweeps, this->Sweep_.Whole(), nullptr); }
+  /// Draws one more that a share of the lines is enough for.
+  /// @return what share it had
+  double DrawThin(double share)
+  {
+    const LineSweep::Choice choice = this->Sweep_.Thin(share);
+    this->Draw(1, choice, nullptr);
+    return choice.Share;
+  }
   /// Draws a whole sweep, of which further ones learn: they get more lines through boxes where
   /// lines bring most of the noise.
   /// @param weights as in LineSurvey
@@ -67,7 +74,7 @@ public:
 
 private:
   /// @param surveys one a batch, or none
-  void Draw(int sweeps, bool thin, std::vector<LineSurvey>* surveys);
+  void Draw(int sweeps, const LineSweep::Choice& choice, std::vector<LineSurvey>* surveys);
   void ShareSums();
 
   LineSweep& Sweep_;

@@ -25,8 +25,7 @@ constexpr double FewestShare = 0.25;
 /// So they do where there are more than these, since millions of cells each are to be crossed: rays
 /// through many of them see the light of many lines.
 constexpr double PlentyOfLines = 40000.0;
-/// Share of a sweep's lines that a thin one has at least, and how many it has then.
-constexpr double ThinShare = 0.25;
+/// Lines that a sweep has at least.
 constexpr double FewestThinLines = 128.0;
 /// Hits that sides need in a sweep, over the square of their reflectance: of the variance that a
 /// sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
@@ -49,7 +48,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(ChooseLines(scene, field, band, tolerance)), ThinLines_(Lines_)
+      Lines_(ChooseLines(scene, field, band, tolerance))
 {
   const bool often = ScattersOften(scene, band);
   if (!often)
@@ -95,10 +94,9 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), bounds[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
-  const double fewest = FewestThinLines / static_cast<double>(this->Lines());
   this->PlainLines_ = this->Lines();
-  this->ThinLines_ =
-    this->Lines_.Thinned(std::min(1.0, std::max({ThinShare, this->HitsShare(), fewest})));
+  this->FewestShare_ = std::min(
+    1.0, std::max(this->HitsShare(), FewestThinLines / static_cast<double>(this->PlainLines_)));
   this->Steps_ = CellSteps(scene, extinction, this->CellCrossings_, often);
   if (often)
   {
@@ -115,6 +113,13 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       float& own = this->SignedExtinction_[cell];
       own = direct.Varies(cell, band) ? -own : own;
     });
+}
+
+LineSweep::Choice LineSweep::Thin(double share) const
+{
+  GlobalLines lines = this->Lines_.Thinned(std::max(share, this->FewestShare_));
+  const auto count = static_cast<float>(lines.Count());
+  return {std::move(lines), count / static_cast<float>(this->PlainLines_)};
 }
 
 double LineSweep::HitsShare() const
@@ -290,14 +295,13 @@ float LineSweep::SquareOf(const GlobalLines::Line& line, const LineTallies& tall
   return sum;
 }
 
-void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
-  const Progress& progress, LineSurvey* survey) const
+void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key,
+  const Choice& choice, const Progress& progress, LineSurvey* survey) const
 {
   this->Prepare(state, tallies);
-  const GlobalLines& lines = thin ? this->ThinLines_ : this->Lines_;
-  const GlobalLines::Draw draw(lines, key);
+  const GlobalLines::Draw draw(choice.Lines, key);
   LineBuffers buffers;
-  for (std::size_t line = 0; line < lines.Count(); ++line)
+  for (std::size_t line = 0; line < choice.Lines.Count(); ++line)
   {
     if (line % 256 == 0 && progress.ShouldStop())
     {
@@ -328,7 +332,7 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
   };
   accumulate(tallies.AtSides, state.AtSides);
   accumulate(tallies.AtCells, state.AtCells);
-  this->TakeFluence(tallies, this->ShareOf(thin), state);
+  this->TakeFluence(tallies, choice.Share, state);
   ++state.Sweeps;
   const float least = 1.0F / static_cast<float>(state.Sweeps);
   std::vector<float>& estimates = tallies.ExpectedIlluminance;
@@ -347,12 +351,12 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key, 
     }
     // What few lines meet sends on a mean of sweeps: a light that is large as rarely as it is found
     // would come back larger.
-    const float share = std::clamp(
-      this->ShareOf(thin) * this->SideHits_[side] / this->HitsForWholeStep(side), least, 1.0F);
+    const float share =
+      std::clamp(choice.Share * this->SideHits_[side] / this->HitsForWholeStep(side), least, 1.0F);
     state.Illuminance[side] += share * (estimate - state.Illuminance[side]);
     state.IlluminanceSum[side] += estimate;
   }
-  state.Share = this->ShareOf(thin);
+  state.Share = choice.Share;
   state.EscapedSum += tallies.Escaped;
   ++state.Counted;
 }

@@ -115,22 +115,25 @@ public:
   void LeaveOutBlocks() { this->Blocks_.reset(); }
   /// Share of what a whole sweep would change of the light that it does change (CellSteps).
   double MeanStep() const { return this->Steps_.MeanStep(); }
-  /// Those of a thin sweep, and their share of those that a whole one has without any added ones.
-  std::size_t ThinLines() const { return this->ThinLines_.Count(); }
-  double ShareOfThin() const
+  /// Lines of a sweep, and their share of those that a whole one has without any added ones.
+  struct Choice
   {
-    return static_cast<double>(this->ThinLines()) / static_cast<double>(this->PlainLines_);
-  }
+    GlobalLines Lines;
+    float Share;
+  };
+  Choice Whole() const { return {this->Lines_, 1.0F}; }
+  /// A share of those without any added ones, but no fewer than keep noise from growing.
+  Choice Thin(double share) const;
   /// Whether some were added.
   bool HasMoreLines() const { return this->Lines() > this->PlainLines_; }
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance, or
   /// takes them some way where its noise would grow, and is added to the sums.
   /// @param key of the random numbers; must differ from sweep to sweep and batch to batch
-  /// @param thin whether a share of the lines is enough
+  /// @param choice of lines
   /// @param tallies scratch
   /// @param survey what some of the lines bring, if that is asked for
-  void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, bool thin,
+  void Run(BatchState& state, LineTallies& tallies, std::uint64_t key, const Choice& choice,
     const Progress& progress, LineSurvey* survey = nullptr) const;
   /// Draws more lines from now on, which whole sweeps have beside those that they had: half of them
   /// through the box, half from places in it to places anywhere in the smoke, where noise counts.
@@ -154,8 +157,6 @@ private:
   double HitsShare() const;
   /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
   float HitsForWholeStep(std::size_t side) const;
-  /// Share of a whole sweep's lines that a sweep has.
-  float ShareOf(bool thin) const { return thin ? static_cast<float>(this->ShareOfThin()) : 1.0F; }
   /// Sum of the squares that a line which was just traced brings to cells, times what these count.
   float SquareOf(const GlobalLines::Line& line, const LineTallies& tallies,
     const LineBuffers& buffers, const std::vector<float>& weights) const;
@@ -186,9 +187,11 @@ private:
   std::vector<float> SignedExtinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  GlobalLines Lines_, ThinLines_;
+  GlobalLines Lines_;
   /// Lines of a whole sweep without any added ones.
   std::size_t PlainLines_ = 0;
+  /// Share of them that keeps noise from growing.
+  double FewestShare_ = 1.0;
   /// Whether lines fetch what they need to know of how direct light varies inside cells.
   bool FetchesDirect_ = false;
   ThickCells Thick_;

@@ -22,6 +22,8 @@ namespace
 /// tolerance that the light may be of which they know nothing yet.
 constexpr int MostThinSweeps = 32;
 constexpr double UncountedShare = 0.5;
+/// Share of a whole sweep's lines that the last thin one has.
+constexpr double ThinShare = 0.25;
 /// Shares of the mean illuminance below which a side is dark, so that it does not matter how long
 /// light would last there: of all, and of what comes straight from a light in the same room.
 constexpr double LeastLight = 1e-3;
@@ -107,13 +109,12 @@ double Settling::LackingWhereItLasts(int sweeps) const
   return this->Lasting_ > 0.0 ? std::pow(this->Kept(this->Lasting_), sweeps) : 0.0;
 }
 
-void Settling::FindPersistence()
+void Settling::FindPersistence(double share)
 {
   const std::vector<BatchState>& states = this->Sweeps_.States();
   const float* const direct =
     this->Field_.DirectIlluminance.data() + this->Field_.PatchIndex(this->Band_, 0, 0);
   const LineSweep& sweep = this->Sweeps_.Sweep();
-  const double thin = sweep.ShareOfThin();
   std::vector<double> scattered(2 * this->Field_.Patches);
   double power = 0.0;
   double area = 0.0;
@@ -124,7 +125,7 @@ void Settling::FindPersistence()
     // lines met a side, half have to find light there.
     const auto found = std::count_if(
       std::begin(own.Value), std::end(own.Value), [](float value) { return value > 0.0F; });
-    const double met = Batches * -std::expm1(-thin * sweep.SideHits(side));
+    const double met = Batches * -std::expm1(-share * sweep.SideHits(side));
     scattered[side] = found > 1 && static_cast<double>(found) > 0.5 * met ? Mean(own) : 0.0;
     const double exposed = this->Scene_.ExposedArea(side / 2, side % 2);
     power += exposed * (direct[side] + scattered[side]);
@@ -142,11 +143,24 @@ void Settling::FindPersistence()
 
 void Settling::BuildUp()
 {
-  for (double left = 1.0; this->Sweeps_.Done() < MostThinSweeps && left > this->Uncounted_;)
+  // Light that is sent on again, once its orders before have been counted, and what the next sweep
+  // leaves of that.
+  double left = 1.0;
+  double kept = 1.0;
+  while (this->Sweeps_.Done() < MostThinSweeps && left > this->Uncounted_)
   {
     // The first sweeps differ much: each is balanced by its own loss.
     this->Sweeps_.Restart();
-    this->Sweeps_.Draw(1, !this->Sweeps_.Diffusion());
+    double share = 1.0;
+    if (this->Sweeps_.Diffusion())
+    {
+      this->Sweeps_.Draw(1);
+    }
+    else
+    {
+      // What is sent on of its noise will be less the more sweeps are still to come.
+      share = this->Sweeps_.DrawThin(ThinShare * std::min(1.0, this->Uncounted_ / (kept * left)));
+    }
     if (this->Sweeps_.Diverges())
     {
       return;
@@ -156,7 +170,7 @@ void Settling::BuildUp()
     const double sent = this->SentOf(powers);
     if (this->Sweeps_.Done() == 1 && !this->Sweeps_.Diffusion())
     {
-      this->FindPersistence();
+      this->FindPersistence(share);
     }
     if (std::pow(this->Kept(sent), this->Sweeps_.Done()) <= this->Uncounted_ ||
         this->Sweeps_.Done() == MostThinSweeps)
@@ -165,6 +179,7 @@ void Settling::BuildUp()
         BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
     }
     left = this->Lacking(sent, this->Sweeps_.Done());
+    kept = this->Kept(sent);
     this->Scale(powers);
     this->Sweeps_.Follow();
   }
@@ -212,9 +227,10 @@ Settling::Verdict Settling::Judge(const BlockMeans::Drift& drift, const Window& 
   // the sums lack of what is sent on.
   const double lacking = this->Lacking(window.Sent, window.Before) /
                          std::max(1.0, (1.0 - this->Kept(window.Sent)) * this->Sweeps_.Counted());
+  const bool late = lacking <= LackingErrors * error;
   verdict.Settled = verdict.Tolerable && !window.Lacks &&
-                    (drift.Estimate <= DriftErrors * error ||
-                      (drift.IsNoise() && lacking <= LackingErrors * error));
+                    (drift.Estimate <= DriftErrors * error || (drift.IsNoise() && late));
+  verdict.Early = verdict.Tolerable && !verdict.Drifts && !verdict.Settled && !late;
   verdict.Grows =
     (verdict.Drifts || window.Lacks) && !verdict.Settled && window.Sweeps >= SlowWindow;
   return verdict;
@@ -272,7 +288,7 @@ bool Settling::Run()
         return verdict.Settled;
       }
     }
-    summed = window.Over && !(earlier && verdict.Drifts);
+    summed = window.Over && !(earlier && verdict.Drifts) && !verdict.Early;
     earlier = std::move(now);
     if (summed)
     {

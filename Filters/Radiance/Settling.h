@@ -56,6 +56,8 @@ private:
     /// Whether it stands out of the noise, for so long that light may grow by itself, is small
     /// enough, and hides in an error that is known.
     bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
+    /// Whether the sums begin too early for a veil that is known so well: later ones lack less.
+    bool Early = false;
   };
 
   /// Largest share of light that anything in the scene sends on.
@@ -70,7 +72,8 @@ private:
   /// Share of the light, where it lasts longest, that is sent on more often than so many times.
   double LackingWhereItLasts(int sweeps) const;
   /// Finds how long light lasts in the parts of the scene that the first sweep lit.
-  void FindPersistence();
+  /// @param share of a whole sweep's lines that it had
+  void FindPersistence(double share);
   void BuildUp();
   /// Scales the latest light to be in balance, where diffusion does not complete it.
   void Scale(const std::vector<PowerBalance::Powers>& powers);

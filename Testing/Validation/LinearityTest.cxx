@@ -205,7 +205,7 @@ BatchState Swept(const Solved& solved, int sweeps)
   LineTallies tallies;
   for (int i = 0; i < sweeps; ++i)
   {
-    sweep.Run(state, tallies, static_cast<std::uint64_t>(i), false, progress);
+    sweep.Run(state, tallies, static_cast<std::uint64_t>(i), sweep.Whole(), progress);
   }
   return state;
 }
