@@ -3,6 +3,7 @@
 #include "DivisionError.h"
 #include "PixelMoments.h"
 #include "Roughness.h"
+#include "SignShadow.h"
 #include "SignSight.h"
 #include "SignVeil.h"
 #include "ZoneChanges.h"
@@ -448,6 +449,11 @@ std::optional<SignMeasurement> SignLook::Measure(double cutOff)
 SignMeasurement MeasureSign(
   const View& view, std::size_t sign, const Vec3& eye, const Observer& observer, double cutOff)
 {
+  const Sign& plate = view.TheScene().Lights().Signs()[sign];
+  if (view.Skips().HiddenSigns && InShadowOfSurfaces(view, plate, eye))
+  {
+    return {.InShadow = true};
+  }
   const std::optional<SignMeasurement> usual =
     SignLook(view, sign, eye, observer, UsualBlocks).Measure(cutOff);
   return usual ? *usual : SignLook(view, sign, eye, observer, ManyBlocks).Measure(cutOff).value();

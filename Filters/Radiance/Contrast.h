@@ -18,8 +18,10 @@ struct Observer
 /// What is measured over the plate of one sign.
 struct SignMeasurement
 {
-  /// False where no part of the sign's front is in view; all else is then zero.
+  /// False where no part of the sign's front is in view; all but InShadow is then zero.
   bool InView = false;
+  /// Whether surfaces were found to hide all of it, so that none of its parts is looked at.
+  bool InShadow = false;
   /// Whether it is cut off; all but InView is then zero.
   bool BelowCutOff = false;
   /// Whether nothing reaches between the eye and the plate, so that none of its parts is looked at.

@@ -32,6 +32,7 @@ struct Counts
   std::atomic<std::size_t> Away{0};
   std::atomic<std::size_t> CutOff{0};
   std::atomic<std::size_t> Hidden{0};
+  std::atomic<std::size_t> InShadow{0};
   std::atomic<std::size_t> Clear{0};
   std::atomic<std::size_t> Gathered{0};
   std::atomic<std::size_t> Uncertain{0};
@@ -80,6 +81,7 @@ void MeasurePlace(const View& view, const FloorMapOptions& options, std::size_t 
     if (!measured.InView || measured.BelowCutOff)
     {
       ++(measured.BelowCutOff ? counts.CutOff : counts.Hidden);
+      counts.InShadow += measured.InShadow ? 1 : 0;
       cut = cut || measured.BelowCutOff;
       continue;
     }
@@ -173,6 +175,7 @@ FloorMap ComputeFloorMap(const View& view, const FloorMapOptions& options, Progr
   say("places skipped", counts.Solid, "inside a solid");
   say("views of signs skipped", counts.Away, "the sign faces away");
   say("views of signs skipped", counts.Hidden, "the sign is hidden");
+  say("hidden signs not looked at in parts", counts.InShadow, "surfaces stand before all of it");
   say("views of signs skipped", counts.CutOff,
     "without the smoke's light, its contrast is below the cut-off");
   return map;

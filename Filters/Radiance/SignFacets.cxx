@@ -64,12 +64,18 @@ Vec3 OnFacet(
 }
 
 //--------------------------------------------------------------------------------------------------
+double SightReach(const View& view, const Sign& sign, double distance)
+{
+  return 20.0 * view.TheScene().Shapes().Tolerance() + 1e-5 * distance + LargestStep * sign.Radius;
+}
+
+//--------------------------------------------------------------------------------------------------
 bool Sees(const View& view, const Sign& sign, const Vec3& eye, const Vec3& point)
 {
   const Vec3 to = point - eye;
   const double distance = glm::length(to);
   const Geometry& shapes = view.TheScene().Shapes();
-  const double reach = 20.0 * shapes.Tolerance() + 1e-5 * distance + LargestStep * sign.Radius;
+  const double reach = SightReach(view, sign, distance);
   const Hit hit = view.FirstHit(eye, to / distance, distance + reach);
   if (!hit.Found() || !hit.Emitter || hit.Side != 0 || hit.Distance < distance - reach)
   {

@@ -27,6 +27,10 @@ std::vector<Facet> FacetsOf(const EmitterSet& lights, const Sign& sign, const Ve
 Vec3 OnFacet(
   const EmitterSet& lights, const Sign& sign, const Facet& facet, const glm::dvec2& place);
 
+/// How far before a point of a sign, at a distance from the eye, what the eye meets still counts as
+/// that point [m].
+double SightReach(const View& view, const Sign& sign, double distance);
+
 /// Whether the straight way from the eye ends at a point on the front of a sign.
 bool Sees(const View& view, const Sign& sign, const Vec3& eye, const Vec3& point);
 

@@ -42,6 +42,8 @@ struct ViewSkips
   bool HiddenSmoke = true;
   /// Looks at the parts of a sign where nothing reaches between that and the eye.
   bool Looks = true;
+  /// All that there is to do for a sign that surfaces hide as a whole.
+  bool HiddenSigns = true;
 };
 
 /// A light field and what views of it need. Immutable but for a count; Trace may be called from

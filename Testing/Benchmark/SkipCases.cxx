@@ -219,7 +219,8 @@ void SkipSigns(ResultTable& table, const Settings& settings)
   compare("looks at parts of signs that nothing hides", {.Looks = false});
 }
 
-void SkipSignsFacingAway(ResultTable& table, const Settings& settings)
+/// A corridor with pairs of signs back to back, 10 m apart.
+SceneDescription CorridorOfSigns()
 {
   SceneDescription scene = Corridor(0.3, 4, 0.5, 0.5);
   constexpr int Pairs = 5;
@@ -232,7 +233,11 @@ void SkipSignsFacingAway(ResultTable& table, const Settings& settings)
       scenes::Barcode(centre, {side, 0, 0}, {0, 0, 1}, 0.6, 0.3, 5, 200.0, sign, 0.1);
     scene.Emitters.insert(scene.Emitters.end(), cells.begin(), cells.end());
   }
-  const Solution corridor = Solve(scene, SkipTolerance, 1, settings.Threads);
+  return scene;
+}
+
+void SkipSignsOutOfView(ResultTable& table, const Settings& settings)
+{
   FloorMapOptions places;
   places.FirstPlace = {0.5, 0.5, 1.7};
   places.StepX = 3.0;
@@ -240,13 +245,30 @@ void SkipSignsFacingAway(ResultTable& table, const Settings& settings)
   places.PlacesY = 4;
   places.Threads = settings.Threads;
   Progress progress;
+  const auto visibility = [&](const View& view)
+  {
+    const FloorMap map = ComputeFloorMap(view, places, progress);
+    return Values(map.Visibility.begin(), map.Visibility.end());
+  };
+  SceneDescription scene = CorridorOfSigns();
+  const Solution open = Solve(scene, SkipTolerance, 1, settings.Threads);
   Compare(table, "signs that face away", "corridor with ten signs back to back: map of 20 x 4",
     [&](bool skips)
     {
       places.SkipsAway = skips;
-      const FloorMap map = ComputeFloorMap(*corridor.TheView, places, progress);
-      return Values(map.Visibility.begin(), map.Visibility.end());
+      return visibility(*open.TheView);
     });
+  places.SkipsAway = true;
+  for (int wall = 0; wall < 6; ++wall)
+  {
+    // A door of 1 m at one side or the other.
+    scenes::AddRectangle(scene.Surfaces, {5.0 + 10.0 * wall, wall % 2 == 0 ? 0.0 : 1.0, 0.0},
+      {0, 3, 0}, {0, 0, 4}, 6, 8, 0.5);
+  }
+  const Solution rooms = Solve(scene, SkipTolerance, 1, settings.Threads);
+  const View looked(rooms.TheScene, rooms.Field, {.HiddenSigns = false});
+  Compare(table, "signs that surfaces hide", "the same in rooms of 10 m with doors between them",
+    [&](bool skips) { return visibility(skips ? *rooms.TheView : looked); });
 }
 
 } // namespace
@@ -260,7 +282,7 @@ void RunSkips(const Settings& settings)
   SkipClearAir(table, settings);
   SkipSteps(table);
   SkipSigns(table, settings);
-  SkipSignsFacingAway(table, settings);
+  SkipSignsOutOfView(table, settings);
 }
 
 } // namespace smokevis::benchmark

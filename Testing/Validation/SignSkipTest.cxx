@@ -100,6 +100,13 @@ TEST(SignSkip, SignsOutOfView)
   EXPECT_EQ(looked.PerceivedContrast, map.PerceivedContrast);
   EXPECT_EQ(looked.Status, map.Status);
   EXPECT_EQ(WorkCount(map.Report, "views of signs skipped", "hidden"), 15.0);
+  EXPECT_EQ(WorkCount(map.Report, "hidden signs not looked at in parts"), 15.0);
+  const View inParts(solved.TheScene, solved.Field, {.HiddenSigns = false});
+  const FloorMap parted = ComputeFloorMap(inParts, options, progress);
+  EXPECT_EQ(WorkCount(parted.Report, "views of signs skipped", "hidden"), 30.0);
+  EXPECT_EQ(WorkCount(parted.Report, "hidden signs not looked at in parts"), 0.0);
+  EXPECT_EQ(parted.PerceivedContrast, map.PerceivedContrast);
+  EXPECT_EQ(parted.Status, map.Status);
   EXPECT_EQ(WorkCount(map.Report, "views of signs computed"), 15.0);
   for (int place = 0; place < 15; ++place)
   {
