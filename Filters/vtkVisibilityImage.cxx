@@ -330,10 +330,11 @@ void vtkVisibilityImage::Report(const Shot& shot, const smokevis::SignMeasuremen
       ? "its contrast is uncertain, but lost in the eye's own noise, or no smoke scatters"
     : sign.InView ? "the light field tells its contrast"
                   : "no target sign is in view"});
-  report.push_back({"signs not looked at in parts", sign.Clear ? 1.0 : 0.0,
-    sign.Clear    ? "nothing reaches between the eye and the sign"
-    : sign.InView ? "something may hide a part of the sign"
-                  : "no target sign is in view"});
+  report.push_back({"signs not looked at in parts", sign.Clear || sign.InShadow ? 1.0 : 0.0,
+    sign.Clear      ? "nothing reaches between the eye and the sign"
+    : sign.InShadow ? "surfaces stand before all of it"
+    : sign.InView   ? "something may hide a part of the sign"
+                    : "no target sign is in view"});
   report.push_back({"plates divided finely", sign.Uneven ? 1.0 : 0.0,
     sign.Uneven   ? "the smoke before the sign is uneven"
     : sign.InView ? "the smoke before the sign is even enough"

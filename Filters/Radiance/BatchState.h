@@ -46,8 +46,8 @@ struct BatchState
   std::vector<double> Residual;
   /// What sweeps lack of their fluence by that, summed up over sweeps [lx].
   std::vector<double> Lacking;
-  /// Sweeps that the latest estimate comes from.
-  int Sweeps = 0;
+  /// Sum of the shares of all sweeps so far.
+  float Swept = 0.0F;
   WatchedLight Watched;
   /// Over the same sweeps, what met each side of a patch, and each of some cells from one on,
   /// others in each batch; empty: none are watched.

@@ -73,7 +73,7 @@ void GlobalLines::AddInner(const Box& inner, std::size_t lines)
 
 void GlobalLines::AddJoining(const Box& from, const Box& to, std::size_t lines)
 {
-  this->Kinds_.push_back({from, lines, this->Count() + lines, true, to});
+  this->Kinds_.push_back({from, lines, this->Count() + lines, to});
 }
 
 double GlobalLines::Kind::DensityAt(const Stretch& through, const Stretch& with) const
@@ -85,7 +85,7 @@ double GlobalLines::Kind::DensityAt(const Stretch& through, const Stretch& with)
                          fourth(through.Leave - with.Leave) - fourth(through.Enter - with.Enter)) /
                        12.0;
   return glm::half_pi<double>() * static_cast<double>(this->Lines) * std::max(0.0, pairs) /
-         (this->Through.Volume() * this->With.Volume());
+         (this->Through.Volume() * this->With->Volume());
 }
 
 GlobalLines GlobalLines::Thinned(double share) const
@@ -96,8 +96,7 @@ GlobalLines GlobalLines::Thinned(double share) const
   for (auto kind = this->Kinds_.begin() + 1; kind != this->Kinds_.end(); ++kind)
   {
     const std::size_t lines = part(*kind);
-    thinned.Kinds_.push_back(
-      {kind->Through, lines, thinned.Count() + lines, kind->Joins, kind->With});
+    thinned.Kinds_.push_back({kind->Through, lines, thinned.Count() + lines, kind->With});
   }
   return thinned;
 }
@@ -132,10 +131,10 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   const std::size_t kind = drawn - kinds.begin();
   const std::size_t own = index - (drawn->End - drawn->Lines);
   Line line;
-  if (drawn->Joins)
+  if (drawn->With)
   {
     DrawJoining(
-      drawn->Through, drawn->With, this->Pairs_[kind].Point(own), line.Origin, line.Direction);
+      drawn->Through, *drawn->With, this->Pairs_[kind].Point(own), line.Origin, line.Direction);
   }
   else
   {
@@ -150,9 +149,9 @@ GlobalLines::Line GlobalLines::Draw::Get(std::size_t index) const
   double density = kinds.front().Density();
   for (auto other = kinds.begin() + 1; other != kinds.end(); ++other)
   {
-    if (other->Joins)
+    if (other->With)
     {
-      density += other->DensityAt(stretch(other->Through), stretch(other->With));
+      density += other->DensityAt(stretch(other->Through), stretch(*other->With));
       continue;
     }
     const auto [enter, leave] = stretch(other->Through);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/gtc/constants.hpp>
@@ -87,14 +88,13 @@ private:
     std::size_t Lines;
     /// Behind its last among all lines.
     std::size_t End;
-    /// Whether each joins a place in the box with one in this other.
-    bool Joins = false;
-    Box With{};
+    /// In which each joins a place with one in the box; none: they only lead through that.
+    std::optional<Box> With = {};
 
     /// Lines a unit of surface [1/m2]; of those that join places next to none are sure.
     double Density() const
     {
-      return this->Joins ? 0.0 : static_cast<double>(this->Lines) / this->Through.Surface();
+      return this->With ? 0.0 : static_cast<double>(this->Lines) / this->Through.Surface();
     }
     /// The same of lines that join places, close to one that goes through the boxes like this.
     double DensityAt(const Stretch& through, const Stretch& with) const;

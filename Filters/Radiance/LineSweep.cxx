@@ -25,8 +25,8 @@ constexpr double FewestShare = 0.25;
 /// So they do where there are more than these, since millions of cells each are to be crossed: rays
 /// through many of them see the light of many lines.
 constexpr double PlentyOfLines = 40000.0;
-/// Lines that a sweep has at least.
-constexpr double FewestThinLines = 128.0;
+/// Lines that a thin sweep has at least, if there are so many.
+constexpr double FewestLines = 128.0;
 /// Hits that sides need in a sweep, over the square of their reflectance: of the variance that a
 /// sweep sends on, its share would otherwise come close to 1, and grow from sweep to sweep.
 constexpr double HitsASquare = 2.0;
@@ -48,7 +48,7 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       DirectFluence_(field.DirectFluence.data() + field.CellIndex(band, 0)),
       DirectIlluminance_(field.DirectIlluminance.data() + field.PatchIndex(band, 0, 0)),
       Band_(band), Scatter_(static_cast<float>(scene.Albedo() / (4.0 * glm::pi<double>()))),
-      Lines_(ChooseLines(scene, field, band, tolerance))
+      Lines_(ChooseLines(scene, field, band, tolerance)), PlainLines_(Lines_)
 {
   const bool often = ScattersOften(scene, band);
   if (!often)
@@ -94,9 +94,9 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
       this->Lines_.Meetings(2.0 * scene.ExposedArea(side / 2, side % 2), bounds[side / 2]));
   }
   this->Groups_ = PatchGroups(scene, band, this->SideHits_);
-  this->PlainLines_ = this->Lines();
-  this->FewestShare_ = std::min(
-    1.0, std::max(this->HitsShare(), FewestThinLines / static_cast<double>(this->PlainLines_)));
+  this->PlainLines_ = this->Lines_;
+  this->FewestShare_ =
+    std::min(1.0, std::max(this->HitsShare(), FewestLines / static_cast<double>(this->Lines())));
   this->Steps_ = CellSteps(scene, extinction, this->CellCrossings_, often);
   if (often)
   {
@@ -117,9 +117,9 @@ LineSweep::LineSweep(const Scene& scene, const LightField& field, const DirectFi
 
 LineSweep::Choice LineSweep::Thin(double share) const
 {
-  GlobalLines lines = this->Lines_.Thinned(std::max(share, this->FewestShare_));
+  GlobalLines lines = this->PlainLines_.Thinned(std::max(share, this->FewestShare_));
   const auto count = static_cast<float>(lines.Count());
-  return {std::move(lines), count / static_cast<float>(this->PlainLines_)};
+  return {std::move(lines), count / static_cast<float>(this->PlainLines_.Count())};
 }
 
 double LineSweep::HitsShare() const
@@ -133,8 +133,7 @@ double LineSweep::HitsShare() const
     if (weight > 0.0)
     {
       weights += weight;
-      sum +=
-        weight * std::min(1.0, HitsASquare * reflectance * reflectance / this->SideHits_[side]);
+      sum += weight * std::min(1.0F, this->HitsForWholeStep(side) / this->SideHits_[side]);
     }
   }
   return weights > 0.0 ? sum / weights : 0.0;
@@ -333,8 +332,8 @@ void LineSweep::Run(BatchState& state, LineTallies& tallies, std::uint64_t key,
   accumulate(tallies.AtSides, state.AtSides);
   accumulate(tallies.AtCells, state.AtCells);
   this->TakeFluence(tallies, choice.Share, state);
-  ++state.Sweeps;
-  const float least = 1.0F / static_cast<float>(state.Sweeps);
+  state.Swept += choice.Share;
+  const float least = choice.Share / state.Swept;
   std::vector<float>& estimates = tallies.ExpectedIlluminance;
   for (std::size_t side = 0; side < state.Illuminance.size(); ++side)
   {

@@ -122,10 +122,11 @@ public:
     float Share;
   };
   Choice Whole() const { return {this->Lines_, 1.0F}; }
-  /// A share of those without any added ones, but no fewer than keep noise from growing.
+  /// A share of those without any added ones, but no fewer than surfaces need to send on what the
+  /// sweep finds.
   Choice Thin(double share) const;
   /// Whether some were added.
-  bool HasMoreLines() const { return this->Lines() > this->PlainLines_; }
+  bool HasMoreLines() const { return this->Lines() > this->PlainLines_.Count(); }
 
   /// One sweep with fresh lines. The new estimate replaces state.Fluence and state.Illuminance, or
   /// takes them some way where its noise would grow, and is added to the sums.
@@ -187,10 +188,9 @@ private:
   std::vector<float> SignedExtinction_;
   /// Luminance of emission alone, (1 - albedo) L_emit; empty: none.
   std::vector<float> Emission_;
-  GlobalLines Lines_;
-  /// Lines of a whole sweep without any added ones.
-  std::size_t PlainLines_ = 0;
-  /// Share of them that keeps noise from growing.
+  /// Of a whole sweep, and these without any added ones.
+  GlobalLines Lines_, PlainLines_;
+  /// Share of the latter that a thin sweep has at least.
   double FewestShare_ = 1.0;
   /// Whether lines fetch what they need to know of how direct light varies inside cells.
   bool FetchesDirect_ = false;

@@ -22,7 +22,7 @@ namespace
 /// tolerance that the light may be of which they know nothing yet.
 constexpr int MostThinSweeps = 32;
 constexpr double UncountedShare = 0.5;
-/// Share of a whole sweep's lines that the last thin one has.
+/// Share of a whole sweep's lines that a thin one has at most, if these are enough.
 constexpr double ThinShare = 0.25;
 /// Shares of the mean illuminance below which a side is dark, so that it does not matter how long
 /// light would last there: of all, and of what comes straight from a light in the same room.
@@ -143,10 +143,10 @@ void Settling::FindPersistence(double share)
 
 void Settling::BuildUp()
 {
-  // Light that is sent on again, once its orders before have been counted, and what the next sweep
-  // leaves of that.
+  // Light that is sent on again, once its orders before have been counted, and the share of its
+  // noise that the sweeps to come leave of that of the next.
   double left = 1.0;
-  double kept = 1.0;
+  double noise = 1.0;
   while (this->Sweeps_.Done() < MostThinSweeps && left > this->Uncounted_)
   {
     // The first sweeps differ much: each is balanced by its own loss.
@@ -158,8 +158,7 @@ void Settling::BuildUp()
     }
     else
     {
-      // What is sent on of its noise will be less the more sweeps are still to come.
-      share = this->Sweeps_.DrawThin(ThinShare * std::min(1.0, this->Uncounted_ / (kept * left)));
+      share = this->Sweeps_.DrawThin(ThinShare * noise);
     }
     if (this->Sweeps_.Diverges())
     {
@@ -179,7 +178,9 @@ void Settling::BuildUp()
         BlockMeans(states, this->Scene_, this->Field_, this->Band_, this->Arena_).DarkestShare();
     }
     left = this->Lacking(sent, this->Sweeps_.Done());
-    kept = this->Kept(sent);
+    const double kept = this->Kept(sent);
+    noise = std::min(1.0, std::max(this->Uncounted_ / (kept * left),
+                            std::pow(kept, MostThinSweeps - this->Sweeps_.Done() - 1)));
     this->Scale(powers);
     this->Sweeps_.Follow();
   }

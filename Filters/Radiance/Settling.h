@@ -19,7 +19,7 @@ struct LightField;
 /// Light that is sent on again and again takes sweeps to build up. First come thin sweeps, until
 /// next to nothing is sent on so often; then windows of whole ones, twice as many each time, until
 /// no drift from one to the next stands out any more that the tolerance would not allow. Windows
-/// that are all settled are merged.
+/// that are all settled are merged, unless these lack more than the error that they are known to.
 class Settling
 {
 public:
@@ -56,7 +56,7 @@ private:
     /// Whether it stands out of the noise, for so long that light may grow by itself, is small
     /// enough, and hides in an error that is known.
     bool Drifts = true, Grows = false, Tolerable = false, Settled = false;
-    /// Whether the sums begin too early for a veil that is known so well: later ones lack less.
+    /// Whether the sums begin too early for a veil that is known so well: new ones lack less.
     bool Early = false;
   };
 

@@ -4,6 +4,7 @@
 #include "SignFacets.h"
 #include "Triangle.h"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -48,6 +49,13 @@ public:
     return shadow;
   }
 
+  bool Holds(const Vec3& point) const
+  {
+    return glm::dot(point, this->Normal_) >= this->Height_ &&
+           std::all_of(this->Sides_.begin(), this->Sides_.end(),
+             [&](const Vec3& side) { return glm::dot(point, side) >= 0.0; });
+  }
+
   /// Adds what lies outside of it.
   void AddLit(Polygon polygon, std::vector<Polygon>& lit) const
   {
@@ -56,10 +64,7 @@ public:
     {
       KeepSide(
         polygon, [&](const Vec3& point) { return -function(point); }, kept);
-      if (!kept.empty())
-      {
-        lit.push_back(kept);
-      }
+      lit.push_back(kept);
       KeepSide(polygon, function, kept);
       std::swap(polygon, kept);
     };
@@ -86,29 +91,27 @@ Triangle TriangleOf(const Scene& scene, const Hit& hit, const Vec3& eye)
 }
 
 /// Whether shadows cover a plate.
+/// @param reach before the plate within which what is met counts as the plate [m]
 /// @param rays that are left
 bool Covered(const View& view, const Vec3& eye, const Polygon& plate, double reach, int& rays)
 {
-  const double least = LeastShare * glm::length(AreaVector(plate));
-  std::vector<Polygon> pieces = {plate};
-  while (!pieces.empty())
+  const auto area = [](const Polygon& polygon) { return glm::length(AreaVector(polygon)); };
+  const double least = LeastShare * area(plate);
+  for (std::vector<Polygon> pieces = {plate}; !pieces.empty();)
   {
-    if (glm::length(AreaVector(pieces.back())) <= least)
-    {
-      pieces.pop_back();
-      continue;
-    }
-    const Polygon& next = pieces.back();
-    const Vec3 middle =
-      std::accumulate(next.begin(), next.end(), Vec3(0.0)) / static_cast<double>(next.size());
+    // Where most is left a place that is seen is found soonest.
+    const Polygon& largest = *std::max_element(pieces.begin(), pieces.end(),
+      [&](const Polygon& a, const Polygon& b) { return area(a) < area(b); });
+    const Vec3 middle = std::accumulate(largest.begin(), largest.end(), Vec3(0.0)) /
+                        static_cast<double>(largest.size());
     const double distance = glm::length(middle);
-    const Hit hit = view.FirstHit(eye, middle / distance, distance);
+    const Hit hit = view.FirstHit(eye, middle / distance, distance + reach);
     if (--rays < 0 || pieces.size() > MostPieces || !hit.Found() || hit.Emitter)
     {
       return false;
     }
     const auto shadow = Shadow::Of(TriangleOf(view.TheScene(), hit, eye), reach);
-    if (!shadow)
+    if (!shadow || !shadow->Holds(middle))
     {
       return false;
     }
@@ -117,6 +120,7 @@ bool Covered(const View& view, const Vec3& eye, const Polygon& plate, double rea
     {
       shadow->AddLit(std::move(piece), lit);
     }
+    std::erase_if(lit, [&](const Polygon& piece) { return !(area(piece) > least); });
     pieces = std::move(lit);
   }
   return true;

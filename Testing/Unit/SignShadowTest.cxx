@@ -2,11 +2,10 @@
 #include "SignShadow.h"
 #include "Contrast.h"
 #include "Dice.h"
-#include "FloorMap.h"
 #include "SceneLibrary.h"
 #include "Solved.h"
 
-#include <algorithm>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -60,7 +59,7 @@ TEST(SignShadow, WallsOfFewAndManyTriangles)
   }
 }
 
-// Through 2 mm between two walls a 150th of the sign shows, but for what its looks at parts miss; a
+// Through 2 mm between two walls a 129th of the sign shows, but for what its looks at parts miss; a
 // third wall behind the gap hides it again, from before it alone.
 TEST(SignShadow, NarrowGap)
 {
