@@ -5,6 +5,8 @@
 #include "Triangle.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>

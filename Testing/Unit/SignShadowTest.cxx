@@ -60,7 +60,7 @@ TEST(SignShadow, WallsOfFewAndManyTriangles)
 }
 
 // Through 2 mm between two walls a 129th of the sign shows, but for what its looks at parts miss; a
-// third wall behind the gap hides it again, from before it alone.
+// third wall behind the gap hides it again.
 TEST(SignShadow, NarrowGap)
 {
   SceneDescription scene = RoomWithSign();
