@@ -115,7 +115,7 @@ public:
   void LeaveOutBlocks() { this->Blocks_.reset(); }
   /// Share of what a whole sweep would change of the light that it does change (CellSteps).
   double MeanStep() const { return this->Steps_.MeanStep(); }
-  /// Lines of a sweep, and their share of those that a whole one has without any added ones.
+  /// Lines of a sweep, and what share of a whole one it is.
   struct Choice
   {
     GlobalLines Lines;
@@ -154,7 +154,8 @@ private:
   void Prepare(const BatchState& state, LineTallies& tallies) const;
   void TraceLine(const BatchState& state, const GlobalLines::Line& line, LineTallies& tallies,
     LineBuffers& buffers) const;
-  /// Share of a whole sweep's lines that surfaces need for noise not to grow, in the mean.
+  /// Share of a whole sweep's lines that surfaces need to send on all of what a sweep found, in the
+  /// mean.
   double HitsShare() const;
   /// Lines that must meet a side in a sweep for it to send on all of what that sweep found.
   float HitsForWholeStep(std::size_t side) const;
