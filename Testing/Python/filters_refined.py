@@ -7,7 +7,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 
 import scenes
-from scenes import cell_array, fetch, field, image, producer
+from scenes import cell_array, fetch, field, image, producer, work_done
 
 simple = scenes.load_plugin()
 # So many metres that nodes are the same numbers whoever cuts the grid.
@@ -15,6 +15,7 @@ SIZE = (4.0, 1.0, 1.0)
 COARSE = (8, 2, 2)
 # White smoke of 1.5 and 2.5 mean free paths a cell.
 EXTINCTIONS = (3.0, 5.0)
+REFINED = "thick smoke cells refined"
 ALBEDO = 0.96
 # Half a mean free path of scattered light a cell: ceil(0.96 * 2.5 / 0.5), and of the first half of
 # the tunnel as much along it as its own smoke asks for.
@@ -71,16 +72,6 @@ def look(source):
             ("Contrast", "ContrastError", "UnlitLuminance", "MeanLuminance", "OpticalDepthToSign")}
 
 
-def report(data, what="thick smoke cells refined"):
-    names = data.GetFieldData().GetAbstractArray("WorkReportWhat")
-    counts = data.GetFieldData().GetArray("WorkReportCount")
-    reasons = data.GetFieldData().GetAbstractArray("WorkReportWhy")
-    for i in range(names.GetNumberOfValues()):
-        if names.GetValue(i) == what:
-            return counts.GetValue(i), reasons.GetValue(i)
-    raise AssertionError(f"the work report does not tell of {what}")
-
-
 def block_of(data):
     return data.GetPartition(0, 0)
 
@@ -101,9 +92,9 @@ for bands in ("Luminance", "RGB"):
     by_hand = light_field(fine_smoke(), **settings)
     data, expected = fetch(refined), fetch(by_hand)
     block, fine = block_of(data), block_of(expected)
-    count, why = report(data)
+    count, why = work_done(data, REFINED)
     assert count == 32 and f"in {fine.GetNumberOfCells()} cells" in why, (count, why)
-    assert report(expected) == (0, "no more than a hundredth of a grid's smoke is so thick")
+    assert work_done(expected, REFINED) == (0, "no more than a hundredth of a grid's smoke is so thick")
     # The grid that came is the grid that goes out, with means over its cells.
     assert block.GetNumberOfCells() == 32 and block.GetClassName() == "vtkImageData"
     assert cell_array(block, "Extinction")[0] == EXTINCTIONS[0]
@@ -134,14 +125,14 @@ for bands in ("Luminance", "RGB"):
     again = simple.SmokeLightField(
         Smoke=producer(block, "Again"), Emitters=[scenes.tunnel_sign(Luminance=2.0)], Albedo=0.1,
         AngstromExponent=0.0, Tolerance=0.1)
-    assert report(fetch(again))[0] == 32
+    assert work_done(fetch(again), REFINED)[0] == 32
     parts = block_of(fetch(again)).GetFieldData().GetArray("Refinement")
     assert [parts.GetValue(i) for i in range(parts.GetNumberOfValues())] == 4 * [3] + 8 * [4]
 
 # Off, white smoke comes out much too dark or too bright in such cells.
 whole = light_field(smoke(COARSE[0] // 2, COARSE[1]), MaximumRefinedCells=0)
 data = fetch(whole)
-count, why = report(data)
+count, why = work_done(data, REFINED)
 assert count == 0 and why.startswith("32 thick cells would take ") and why.endswith("more than MaximumRefinedCells"), why
 assert not block_of(data).GetFieldData().HasArray("Refinement")
 assert abs(look(whole)["UnlitLuminance"] / seen["UnlitLuminance"] - 1.0) > 0.1
@@ -153,12 +144,12 @@ values[1:4, 1:4, 8:11] = 2.5
 cloud = image((20, 5, 5), SIZE)
 scenes.add_cells(cloud, "Extinction", values.ravel())
 data = fetch(light_field(cloud, Tolerance=0.02))
-assert report(data, JUTTING)[0] == 20, report(data, JUTTING)
-assert report(data) == (0, "no more than a hundredth of a grid's smoke is so thick")
+assert work_done(data, JUTTING)[0] == 20, work_done(data, JUTTING)
+assert work_done(data, REFINED) == (0, "no more than a hundredth of a grid's smoke is so thick")
 parts = block_of(data).GetFieldData().GetArray("Refinement")
 assert [parts.GetValue(i) for i in range(20)] == 8 * [1] + 3 * [2] + 9 * [1]
 data = fetch(light_field(cloud, Tolerance=0.02, MaximumRefinedCells=1000))
-count, why = report(data, JUTTING)
+count, why = work_done(data, JUTTING)
 assert count == 0 and why.endswith("more than an eighth of MaximumRefinedCells"), why
 data = fetch(light_field(cloud, Tolerance=0.03))
 assert not block_of(data).GetFieldData().HasArray("Refinement")

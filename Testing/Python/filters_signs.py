@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
 import scenes
-from scenes import cell_array, check_close, fetch, field
+from scenes import cell_array, check_close, fetch, field, work_done
 
 simple = scenes.load_plugin()
 WEIGHTS = numpy.array([0.2126, 0.7152, 0.0722])
@@ -215,6 +215,19 @@ def check_reflecting_sign_in_room():
     check_close("luminance", bright, 0.75 * mean / math.pi, 0.3)
 
 
+def check_hidden_sign():
+    """Behind a block no part of a sign is looked at, beside it all parts; the report says which."""
+    block = scenes.producer(scenes.box((0.1, 2.0, 2.0), 0.3, (3.0, -1.0, -1.0), False), "Block")
+    sign = simple.ExitSign(Center=[0.0, 0.0, 0.0], Luminance=200)
+    light = simple.SmokeLightField(Smoke=air(0.1), Surfaces=[block], Emitters=[sign])
+    light.UpdatePipeline()
+    for eye, seen, why in (([6.0, 0.0, 0.0], 0.0, "surfaces stand before all of it"),
+                           ([2.0, 0.0, 0.0], 1.0, "nothing reaches between the eye and the sign")):
+        image = look_at(light, eye)
+        assert field(image, "VisibleFraction") == seen
+        assert work_done(image, "signs not looked at in parts") == (1.0, why)
+
+
 def check_blank_plate():
     """Standard deviation over mean is the paper's method: a blank plate that is lit from the side
     has a contrast, which is that of the illuminance's slope, and observers count as seeing it. What
@@ -310,6 +323,7 @@ with tempfile.TemporaryDirectory() as temporary:
     check_detailed_image(temporary)
 check_reflecting_sign()
 check_reflecting_sign_in_room()
+check_hidden_sign()
 check_blank_plate()
 check_emission_exponent()
 check_readable_presets()

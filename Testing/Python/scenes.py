@@ -131,6 +131,16 @@ def field(data, name):
     return array.GetComponent(0, 0)
 
 
+def work_done(data, what):
+    """A row of the work report: how many, and why."""
+    names, counts, reasons = (data.GetFieldData().GetAbstractArray("WorkReport" + part)
+                              for part in ("What", "Count", "Why"))
+    for i in range(names.GetNumberOfValues()):
+        if names.GetValue(i) == what:
+            return counts.GetValue(i), reasons.GetValue(i)
+    raise AssertionError(f"the work report does not tell of {what}")
+
+
 class Messages:
     """Collects VTK's errors and warnings instead of printing them."""
 
