@@ -42,13 +42,20 @@ smokevisibility_install()
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# Builds in build/release below the repository's root; sets SMOKEVISIBILITY_BUILD.
+# Configures and builds a preset in its folder below build, below the repository's root.
+# Usage: smokevisibility_make preset [target...]
+smokevisibility_make()
+{
+  smokevisibility_say "Configuring and building in build/$1"
+  cmake --preset "$1" >build-configure.log 2>&1 || { cat build-configure.log; return 1; }
+  rm -f build-configure.log
+  cmake --build --preset "$1" ${2:+--target "${@:2}"}
+}
+
+# Sets SMOKEVISIBILITY_BUILD.
 smokevisibility_build()
 {
   smokevisibility_install
   SMOKEVISIBILITY_BUILD="$PWD/build/release"
-  smokevisibility_say "Configuring and building in build/release"
-  cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; return 1; }
-  rm -f build-configure.log
-  cmake --build --preset release ${1:+--target "$@"}
+  smokevisibility_make release "$@"
 }

@@ -18,12 +18,12 @@ namespace
 {
 
 /// Field data of a smoke block: of the later parts of the cells that walls cut,
-const char* const PartDirect = "PartDirectFluence";
-const char* const PartMultiple = "PartMultipleFluence";
+constexpr const char* PartDirect = "PartDirectFluence";
+constexpr const char* PartMultiple = "PartMultipleFluence";
 /// and of the finer cells of a block that was refined.
-const char* const Refinement = "Refinement";
-const char* const RefinedDirect = "RefinedDirectFluence";
-const char* const RefinedMultiple = "RefinedMultipleFluence";
+constexpr const char* Refinement = "Refinement";
+constexpr const char* RefinedDirect = "RefinedDirectFluence";
+constexpr const char* RefinedMultiple = "RefinedMultipleFluence";
 constexpr std::array FieldArrays = {
   PartDirect, PartMultiple, Refinement, RefinedDirect, RefinedMultiple};
 

@@ -149,10 +149,10 @@ double IntensityTable::Value(double x, double y, double z) const
   }
   const auto [row, t] = Place(this->Polar_, polar);
   const std::size_t count = this->Polar_.size();
-  const auto along = [&](std::size_t plane)
+  const auto along = [&, first = row, share = t](std::size_t plane)
   {
-    const double* const values = &this->Intensity_[plane * count + row];
-    return (1.0 - t) * values[0] + t * values[1];
+    const double* const values = &this->Intensity_[plane * count + first];
+    return (1.0 - share) * values[0] + share * values[1];
   };
   if (this->Azimuth_.size() == 1)
   {

@@ -86,8 +86,8 @@ std::vector<std::vector<std::size_t>> LooseParts(std::vector<std::size_t> member
       continue;
     }
     const auto [values, left] = LongestLived(part, within, areas);
-    const auto middle = std::partition(
-      part.begin(), part.end(), [&values](std::size_t place) { return values[place] < 0.0; });
+    const auto low = [&signs = values](std::size_t place) { return signs[place] < 0.0; };
+    const auto middle = std::partition(part.begin(), part.end(), low);
     if (left < LooseShare || middle == part.begin() || middle == part.end())
     {
       parts.push_back(std::move(part));
@@ -97,8 +97,7 @@ std::vector<std::vector<std::size_t>> LooseParts(std::vector<std::size_t> member
     open.emplace_back(middle, part.end());
     for (const std::size_t place : part)
     {
-      const bool low = values[place] < 0.0;
-      std::erase_if(within[place], [&](std::size_t other) { return (values[other] < 0.0) != low; });
+      std::erase_if(within[place], [&](std::size_t other) { return low(other) != low(place); });
     }
   }
   return parts;

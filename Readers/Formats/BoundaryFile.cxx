@@ -96,7 +96,7 @@ void BoundaryFile::IndexFrames(std::uint64_t offset)
 {
   firstFrame_ = offset;
   const std::uint64_t frames = (records_.Size() - firstFrame_) / frameBytes_;
-  const auto bytes = [this](const BoundaryPatch& patch)
+  const auto bytes = [](const BoundaryPatch& patch)
   { return static_cast<std::uint32_t>(patch.Nodes() * sizeof(float)); };
   for (std::uint64_t frame = 0; frame < frames; ++frame)
   {
