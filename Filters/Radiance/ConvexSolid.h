@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Box.h"
+#include "Plane.h"
 #include "Types.h"
 
 #include <utility>
@@ -9,15 +10,6 @@
 
 namespace smokevis
 {
-
-/// Points with dot(Normal, point) above Offset lie in front. The normal has unit length.
-struct Plane
-{
-  Vec3 Normal{0.0};
-  double Offset = 0.0;
-
-  double Height(const Vec3& point) const { return glm::dot(this->Normal, point) - this->Offset; }
-};
 
 /// A convex solid, known by the polygons that bound it.
 class ConvexSolid

@@ -5,6 +5,7 @@
 #include "LightSight.h"
 #include "PolygonClip.h"
 #include "SmokeBorders.h"
+#include "SurfaceCuts.h"
 #include "Triangle.h"
 
 #include <algorithm>
@@ -88,6 +89,21 @@ void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
   }
 }
 
+/// Leaves as they are divided, or all together.
+/// @param divider null: none
+template <class Divider>
+std::vector<std::vector<LightGroup>> DividedBy(
+  const Divider* divider, std::vector<LightGroup> leaves)
+{
+  if (divider)
+  {
+    return divider->Divide(std::move(leaves));
+  }
+  std::vector<std::vector<LightGroup>> groups;
+  groups.push_back(std::move(leaves));
+  return groups;
+}
+
 } // namespace
 
 double LightGroup::Distance(const Vec3& point) const
@@ -126,8 +142,7 @@ double LightGroup::EdgeDistance(const Vec3& point) const
   return std::sqrt(least);
 }
 
-EmitterSet::EmitterSet(
-  std::vector<EmitterCell> cells, int bands, double largestLight, const SmokeBorders* borders)
+EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands)
     : Bands_(bands), Cells_(std::move(cells))
 {
   for (std::size_t index = 0; index < this->Cells_.size(); ++index)
@@ -150,7 +165,6 @@ EmitterSet::EmitterSet(
     this->Centres_.push_back(centre / (3.0 * this->Areas_.back()));
   }
   this->FindSigns();
-  this->BuildLights(largestLight, borders);
 }
 
 double EmitterSet::CellFlux(std::size_t cell, int band) const
@@ -249,7 +263,8 @@ std::vector<int> EmitterSet::JoinCells(bool samePlane) const
   return lightOf;
 }
 
-void EmitterSet::BuildLights(double largestLight, const SmokeBorders* borders)
+void EmitterSet::FormLights(
+  double largestLight, const SmokeBorders* borders, const SurfaceCuts* cuts)
 {
   const std::vector<int> lightOf = this->JoinCells(true);
   const std::vector<int> bodyOf = this->JoinCells(false);
@@ -278,20 +293,14 @@ void EmitterSet::BuildLights(double largestLight, const SmokeBorders* borders)
   {
     auto& [first, leaves] = light;
     this->AddDarkLeaves(first, leaves);
-    std::vector<std::vector<LightGroup>> groups;
-    if (borders)
+    for (std::vector<LightGroup>& piece : DividedBy(cuts, std::move(leaves)))
     {
-      groups = borders->Divide(std::move(leaves));
-    }
-    else
-    {
-      groups.push_back(std::move(leaves));
-    }
-    for (std::vector<LightGroup>& group : groups)
-    {
-      for (std::vector<LightGroup>& part : FilledParts(std::move(group)))
+      for (std::vector<LightGroup>& group : DividedBy(borders, std::move(piece)))
       {
-        this->AddLight(std::move(part));
+        for (std::vector<LightGroup>& part : FilledParts(std::move(group)))
+        {
+          this->AddLight(std::move(part));
+        }
       }
     }
   }

@@ -13,6 +13,7 @@ namespace smokevis
 {
 
 class SmokeBorders;
+class SurfaceCuts;
 
 /// One plane convex polygon of a sign's or lamp's plate. It emits from its front (right-hand side)
 /// only, luminance times cos^Exponent of the angle to the normal (0: Lambertian), or as a table
@@ -107,21 +108,24 @@ struct LightGroup
 
 /// All emitters of a scene. Cells that light together (the lit cells of one sign, or joined cells
 /// of lamps, that share a plane and fill a good part of the rectangle around them) form one light,
-/// a tree of groups, and one on each side where a border of smoke crosses them. A pattern of very
-/// many cells lights its surroundings as a lattice of rectangles of the same intensity does. A
-/// luminous body that is large against the scene, such as a wall, is met by random lines often
-/// enough to leave it to them.
+/// a tree of groups, and one on each side where a border of smoke or a surface crosses them. A
+/// pattern of very many cells lights its surroundings as a lattice of rectangles of the same
+/// intensity does. A luminous body that is large against the scene, such as a wall, is met by
+/// random lines often enough to leave it to them.
 class EmitterSet
 {
 public:
   EmitterSet() = default;
-  /// Checks the cells; throws Error for polygons that are not plane and convex, and for luminances,
-  /// exponents or reflectances out of range.
+  /// Checks the cells, and finds the signs; throws Error for polygons that are not plane and
+  /// convex, and for luminances, exponents or reflectances out of range.
+  EmitterSet(std::vector<EmitterCell> cells, int bands);
+
+  /// Forms the lights.
   /// @param largestLight area above which a luminous body is left to the random lines [m2]
   /// @param borders where smoke divides the lights; null: nowhere
-  EmitterSet(std::vector<EmitterCell> cells, int bands, double largestLight,
-    const SmokeBorders* borders = nullptr);
-
+  /// @param cuts where surfaces do; null: nowhere
+  void FormLights(
+    double largestLight, const SmokeBorders* borders = nullptr, const SurfaceCuts* cuts = nullptr);
   /// Tells the lights that something stands on.
   void MarkCrossed(const LightSight& sight);
 
@@ -155,7 +159,6 @@ private:
   /// Numbers the lights (in one plane) or luminous bodies that cells belong to; cells without light
   /// of their own get -1.
   std::vector<int> JoinCells(bool samePlane) const;
-  void BuildLights(double largestLight, const SmokeBorders* borders);
   /// Adds the light that leaves of one plane, lit and dark, make.
   void AddLight(std::vector<LightGroup> leaves);
   void AddLeavesOf(std::size_t cell, std::vector<LightGroup>& leaves) const;

@@ -199,6 +199,8 @@ public:
   {
     this->Surfaces_.IntersectAll(origin, direction, begin, end, hits);
   }
+  /// Triangles of surfaces that lie near to a place, and some beyond, to single precision.
+  std::vector<Triangle> SurfacesNear(const Vec3& place, double radius) const;
   /// Whether anything opaque lies between two distances.
   bool Occluded(const Vec3& origin, const Vec3& direction, double begin, double end) const;
   /// Whether the straight line between two points is clear but for what touches its ends.

@@ -100,6 +100,18 @@ struct Hull
 
 } // namespace
 
+std::vector<Triangle> Geometry::SurfacesNear(const Vec3& place, double radius) const
+{
+  std::vector<Triangle> near;
+  this->Surfaces_.AllNear(place, radius,
+    [&near](const Triangle& triangle)
+    {
+      near.push_back(triangle);
+      return true;
+    });
+  return near;
+}
+
 bool Geometry::Free(const Shaft& shaft) const
 {
   const Hull hull(shaft);

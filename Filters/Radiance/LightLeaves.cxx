@@ -1,6 +1,7 @@
 #include "LightLeaves.h"
 
 #include "PlatePattern.h"
+#include "PolygonClip.h"
 #include "Triangle.h"
 
 #include <algorithm>
@@ -25,10 +26,10 @@ constexpr int Halvings = 2;
 constexpr std::array<double, Halvings> FullShares = {0.75, 0.95};
 
 /// The plane of a light, with axes along the first edge of a leaf and across it.
-class Plane
+class PlateAxes
 {
 public:
-  Plane(const LightGroup& leaf, const Vec3& origin)
+  PlateAxes(const LightGroup& leaf, const Vec3& origin)
       : Origin_(origin), U_(glm::normalize(leaf.Corners[1] - leaf.Corners[0])),
         V_(glm::cross(leaf.Normal, U_))
   {
@@ -54,18 +55,18 @@ struct Rectangle
   glm::dvec2 High{-1e300};
 
   Rectangle() = default;
-  Rectangle(const Plane& plane, std::span<const LightGroup> leaves)
+  Rectangle(const PlateAxes& axes, std::span<const LightGroup> leaves)
   {
     for (const LightGroup& leaf : leaves)
     {
-      this->Add(plane, leaf);
+      this->Add(axes, leaf);
     }
   }
-  void Add(const Plane& plane, const LightGroup& leaf)
+  void Add(const PlateAxes& axes, const LightGroup& leaf)
   {
     for (const Vec3& corner : leaf.Corners)
     {
-      const glm::dvec2 place = plane.Place(corner);
+      const glm::dvec2 place = axes.Place(corner);
       this->Low = glm::min(this->Low, place);
       this->High = glm::max(this->High, place);
     }
@@ -76,13 +77,13 @@ struct Rectangle
 
 /// Orders leaves along the axis across which a cut leaves the least rectangles on both sides, and
 /// returns the first leaf behind it.
-std::size_t Cut(const Plane& plane, const Rectangle& around, std::vector<LightGroup>& leaves)
+std::size_t Cut(const PlateAxes& axes, const Rectangle& around, std::vector<LightGroup>& leaves)
 {
   const auto order = [&](int axis)
   {
     std::stable_sort(leaves.begin(), leaves.end(),
       [&](const LightGroup& a, const LightGroup& b)
-      { return plane.Place(a.Centre)[axis] < plane.Place(b.Centre)[axis]; });
+      { return axes.Place(a.Centre)[axis] < axes.Place(b.Centre)[axis]; });
   };
   double least = (1.0 - SmallestGain) * around.Area();
   const glm::dvec2 size = around.Size();
@@ -95,13 +96,13 @@ std::size_t Cut(const Plane& plane, const Rectangle& around, std::vector<LightGr
     Rectangle rest;
     for (std::size_t i = leaves.size(); i-- > 1;)
     {
-      rest.Add(plane, leaves[i]);
+      rest.Add(axes, leaves[i]);
       behind[i] = rest.Area();
     }
     Rectangle before;
     for (std::size_t i = 1; i < leaves.size(); ++i)
     {
-      before.Add(plane, leaves[i - 1]);
+      before.Add(axes, leaves[i - 1]);
       if (before.Area() + behind[i] < least)
       {
         least = before.Area() + behind[i];
@@ -112,6 +113,27 @@ std::size_t Cut(const Plane& plane, const Rectangle& around, std::vector<LightGr
   }
   order(best);
   return place;
+}
+
+/// The leaves' parts on one side of a plane: its front (1) or its back (-1).
+std::vector<LightGroup> PartsOnSide(
+  const std::vector<LightGroup>& leaves, const Plane& plane, double side)
+{
+  std::vector<LightGroup> kept;
+  for (const LightGroup& leaf : leaves)
+  {
+    EmitterCell part;
+    KeepSide(
+      std::vector<Vec3>(leaf.Corners.begin(), leaf.Corners.end()),
+      [&](const Vec3& point) { return side * plane.Height(point); }, part.Vertices);
+    part.SignId = leaf.SignId;
+    for (int band = 0; band < MaxBands; ++band)
+    {
+      part.Luminance[band] = leaf.Intensity[band] / leaf.Area;
+    }
+    AddLeaves(part, leaf.Normal, leaf.Law, leaf.Area, kept);
+  }
+  return kept;
 }
 
 } // namespace
@@ -161,10 +183,43 @@ void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& l
 
 std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through)
 {
-  const Plane plane(leaves.front(), through);
-  const auto [low, high] = Rectangle(plane, leaves);
-  return {plane.Point(low), plane.Point({high.x, low.y}), plane.Point(high),
-    plane.Point({low.x, high.y})};
+  const PlateAxes axes(leaves.front(), through);
+  const auto [low, high] = Rectangle(axes, leaves);
+  return {
+    axes.Point(low), axes.Point({high.x, low.y}), axes.Point(high), axes.Point({low.x, high.y})};
+}
+
+std::vector<std::vector<LightGroup>> DivideLeaves(std::vector<LightGroup> leaves,
+  const std::function<std::optional<Plane>(const std::vector<LightGroup>&, int)>& find)
+{
+  struct Group
+  {
+    std::vector<LightGroup> Leaves;
+    int Cuts = 0;
+  };
+  std::vector<std::vector<LightGroup>> groups;
+  std::vector<Group> open;
+  open.push_back({std::move(leaves), 0});
+  while (!open.empty())
+  {
+    Group group = std::move(open.back());
+    open.pop_back();
+    if (group.Leaves.empty())
+    {
+      continue;
+    }
+    const std::optional<Plane> plane = find(group.Leaves, group.Cuts);
+    if (!plane)
+    {
+      groups.push_back(std::move(group.Leaves));
+      continue;
+    }
+    for (const double side : {1.0, -1.0})
+    {
+      open.push_back({PartsOnSide(group.Leaves, *plane, side), group.Cuts + 1});
+    }
+  }
+  return groups;
 }
 
 std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
@@ -176,8 +231,8 @@ std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
   {
     std::vector<LightGroup> part = std::move(open.back());
     open.pop_back();
-    const Plane plane(part.front(), part.front().Centre);
-    const Rectangle around(plane, part);
+    const PlateAxes axes(part.front(), part.front().Centre);
+    const Rectangle around(axes, part);
     const double area = std::accumulate(part.begin(), part.end(), 0.0,
       [](double sum, const LightGroup& leaf) { return sum + leaf.Area; });
     if (part.size() == 1 || area >= LeastFilled * around.Area())
@@ -185,7 +240,7 @@ std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
       parts.push_back(std::move(part));
       continue;
     }
-    const std::size_t cut = Cut(plane, around, part);
+    const std::size_t cut = Cut(axes, around, part);
     open.emplace_back(part.begin() + cut, part.end());
     part.resize(cut);
     open.push_back(std::move(part));
@@ -197,8 +252,8 @@ std::vector<LightGroup> Coarsened(
   const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark)
 {
   const LightGroup& first = leaves.front();
-  const Plane plane(first, first.Centre);
-  const Rectangle around(plane, leaves);
+  const PlateAxes axes(first, first.Centre);
+  const Rectangle around(axes, leaves);
   const glm::dvec2 size = around.Size();
   std::vector<PatternCell> cells;
   for (const auto* const group : {&leaves, &dark})
@@ -208,7 +263,7 @@ std::vector<LightGroup> Coarsened(
       PatternCell cell;
       for (const Vec3& corner : leaf.Corners)
       {
-        cell.Corners.push_back((plane.Place(corner) - around.Low) / size);
+        cell.Corners.push_back((axes.Place(corner) - around.Low) / size);
       }
       cell.Value[0] = 1.0;
       for (int band = 0; band < MaxBands; ++band)
@@ -234,7 +289,7 @@ std::vector<LightGroup> Coarsened(
   const std::vector<double> up = borders(size.y);
   const PlatePattern pattern(cells, PatternAxis(across, 0), PatternAxis(up, 0));
   const auto corner = [&](std::size_t column, std::size_t row)
-  { return plane.Point(around.Low + glm::dvec2(across[column], up[row]) * size); };
+  { return axes.Point(around.Low + glm::dvec2(across[column], up[row]) * size); };
   std::vector<LightGroup> lattice;
   const auto add = [&](auto&& self, std::size_t column, std::size_t row, int halvings) -> void
   {

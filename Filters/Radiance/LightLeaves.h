@@ -2,8 +2,11 @@
 #pragma once
 
 #include "Emitters.h"
+#include "Plane.h"
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +24,11 @@ void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& l
 /// Corners of the rectangle around leaves, in the plane through a point, along the first leaf's
 /// first edge.
 std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through);
+
+/// Divides leaves of one plane by other planes, until there are none.
+/// @param find the plane that divides a group, which so many have divided before; none: it stays
+std::vector<std::vector<LightGroup>> DivideLeaves(std::vector<LightGroup> leaves,
+  const std::function<std::optional<Plane>(const std::vector<LightGroup>&, int)>& find);
 
 /// Divides leaves of one plane so that each group fills a quarter at least of the rectangle around
 /// it: what is worked out of a light from afar takes it for such a rectangle.

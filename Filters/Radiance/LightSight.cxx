@@ -12,9 +12,6 @@ namespace smokevis
 namespace
 {
 
-/// How far before a plate places of it lie to which shadow rays lead, in tolerances of the shapes:
-/// a ray that grazes a wall in whose plane the plate lies must not run within rounding of that.
-constexpr double Lift = 10.0;
 /// Below this radius over distance a light is seen whole or not at all.
 constexpr double SmallRatio = 0.05;
 /// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so

@@ -26,6 +26,11 @@ public:
   /// @param shapes what hides lights; must outlive this
   explicit LightSight(const Geometry& shapes) : Shapes_(shapes) {}
 
+  /// How far before a plate places of it lie to which shadow rays lead, in tolerances of the
+  /// shapes: a ray that grazes a wall in whose plane the plate lies must not run within rounding of
+  /// that.
+  static constexpr double Lift = 10.0;
+
   /// Whether a group is seen whole or not at all, for it is far and nothing crosses it.
   static bool Small(const LightGroup& group, const Vec3& point);
   /// Whether something stands on the plate of a group, or goes through it, between any two of its

@@ -7,6 +7,7 @@
 #include "NearLights.h"
 #include "OpenFaces.h"
 #include "SmokeBorders.h"
+#include "SurfaceCuts.h"
 
 #include <cmath>
 #include <limits>
@@ -181,9 +182,7 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
     throw Error("scene", "it is empty", "Give smoke, surfaces or emitters");
   }
   const Vec3 size = this->Upper_ - this->Lower_;
-  const SmokeBorders borders(this->Smoke_, this->LargestScale());
-  this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands,
-    LargeLight * BoxSurface(size), &borders);
+  this->Lights_ = EmitterSet(std::move(this->Description_.Emitters), this->Description_.Bands);
   this->SharesShapes_ = earlier && earlier->Lower_ == this->Lower_ &&
                         earlier->Upper_ == this->Upper_ &&
                         earlier->Smoke_.Lower() == this->Smoke_.Lower() &&
@@ -200,6 +199,9 @@ Scene::Scene(SceneDescription description, const Scene* earlier)
     this->FindShapes(glm::length(size));
   }
   CheckSigns(this->Lights_.Signs(), *this->Shapes_);
+  const SmokeBorders borders(this->Smoke_, this->LargestScale());
+  const SurfaceCuts cuts(*this->Shapes_);
+  this->Lights_.FormLights(LargeLight * BoxSurface(size), &borders, &cuts);
   this->Lights_.MarkCrossed(LightSight(*this->Shapes_));
   if (!this->Smoke_.Empty())
   {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace smokevis
 {
@@ -29,27 +30,6 @@ constexpr double InFront = 1e-3;
 constexpr double Beside = 1e-4;
 /// Sine of the angle between a plate and a border below which they run side by side.
 constexpr double LeastSlant = 0.05;
-
-/// The leaves' parts on one side of a plane across an axis.
-std::vector<LightGroup> Side(
-  const std::vector<LightGroup>& leaves, int axis, double place, double sign)
-{
-  std::vector<LightGroup> kept;
-  for (const LightGroup& leaf : leaves)
-  {
-    EmitterCell part;
-    KeepSide(
-      std::vector<Vec3>(leaf.Corners.begin(), leaf.Corners.end()),
-      [&](const Vec3& point) { return sign * (point[axis] - place); }, part.Vertices);
-    part.SignId = leaf.SignId;
-    for (int band = 0; band < MaxBands; ++band)
-    {
-      part.Luminance[band] = leaf.Intensity[band] / leaf.Area;
-    }
-    AddLeaves(part, leaf.Normal, leaf.Law, leaf.Area, kept);
-  }
-  return kept;
-}
 
 } // namespace
 
@@ -148,36 +128,19 @@ SmokeBorders::Border SmokeBorders::Largest(const std::vector<LightGroup>& leaves
 
 std::vector<std::vector<LightGroup>> SmokeBorders::Divide(std::vector<LightGroup> leaves) const
 {
-  struct Group
-  {
-    std::vector<LightGroup> Leaves;
-    int Cuts = 0;
-    double LeastStep = 0.0;
-  };
-  std::vector<std::vector<LightGroup>> groups;
-  std::vector<Group> open;
-  open.push_back({std::move(leaves), 0, LeastStep});
-  while (!open.empty())
-  {
-    Group group = std::move(open.back());
-    open.pop_back();
-    if (group.Leaves.empty())
+  return DivideLeaves(std::move(leaves),
+    [this](const std::vector<LightGroup>& group, int cuts) -> std::optional<Plane>
     {
-      continue;
-    }
-    const Border border = group.Cuts < MostCuts ? this->Largest(group.Leaves) : Border{};
-    if (border.Step < group.LeastStep)
-    {
-      groups.push_back(std::move(group.Leaves));
-      continue;
-    }
-    for (const double sign : {1.0, -1.0})
-    {
-      open.push_back({Side(group.Leaves, border.Axis, border.Place, sign), group.Cuts + 1,
-        StepGrowth * group.LeastStep});
-    }
-  }
-  return groups;
+      const Border border = cuts < MostCuts ? this->Largest(group) : Border{};
+      if (border.Step < LeastStep * std::pow(StepGrowth, cuts))
+      {
+        return std::nullopt;
+      }
+      Plane plane;
+      plane.Normal[border.Axis] = 1.0;
+      plane.Offset = border.Place;
+      return plane;
+    });
 }
 
 } // namespace smokevis

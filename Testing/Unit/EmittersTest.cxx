@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,13 @@ namespace
 
 using namespace smokevis;
 using std::numbers::pi;
-/// All lights shine directly, however large.
-constexpr double AnySize = 1e300;
+/// With its lights, which all shine directly, however large.
+EmitterSet WithLights(std::vector<EmitterCell> cells, const SmokeBorders* borders = nullptr)
+{
+  EmitterSet set(std::move(cells), 1);
+  set.FormLights(1e300, borders);
+  return set;
+}
 
 /// A rectangle in the plane z = 0 with its front upwards.
 EmitterCell Rectangle(double x0, double x1, double y0, double y1, double luminance, int signId)
@@ -38,7 +44,7 @@ TEST(Emitters, AreaNormalCentre)
     hexagon.Vertices.emplace_back(
       5.0 + std::cos(pi / 3.0 * corner), std::sin(pi / 3.0 * corner), 2.0);
   }
-  const EmitterSet set({triangle, hexagon}, 1, AnySize);
+  const EmitterSet set = WithLights({triangle, hexagon});
   EXPECT_DOUBLE_EQ(set.CellArea(0), 4.5);
   EXPECT_EQ(set.CellNormal(0), Vec3(0, 0, -1));
   EXPECT_LT(glm::length(set.CellCentre(0) - Vec3(1, 1, 1)), 1e-12);
@@ -52,16 +58,15 @@ TEST(Emitters, Flux)
   EmitterCell lambertian = Rectangle(0, 2, 0, 1, 10.0, -1);
   EmitterCell narrow = Rectangle(5, 6, 0, 1, 10.0, -1);
   narrow.Exponent = 8.0;
-  EXPECT_NEAR(EmitterSet({lambertian}, 1, AnySize).Flux(0), pi * 10.0 * 2.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({narrow}, 1, AnySize).Flux(0), 2.0 * pi * 10.0 / 10.0, 1e-9);
-  EXPECT_NEAR(EmitterSet({lambertian, narrow}, 1, AnySize).Flux(0), pi * 20.0 + 2.0 * pi, 1e-9);
+  EXPECT_NEAR(WithLights({lambertian}).Flux(0), pi * 10.0 * 2.0, 1e-9);
+  EXPECT_NEAR(WithLights({narrow}).Flux(0), 2.0 * pi * 10.0 / 10.0, 1e-9);
+  EXPECT_NEAR(WithLights({lambertian, narrow}).Flux(0), pi * 20.0 + 2.0 * pi, 1e-9);
 }
 
 TEST(Emitters, SignsInOrderOfTheirIds)
 {
-  const EmitterSet set({Rectangle(0, 1, 0, 1, 1.0, 7), Rectangle(5, 6, 0, 2, 1.0, 3),
-                         Rectangle(1, 2, 0, 1, 0.0, 7), Rectangle(9, 10, 0, 1, 1.0, -1)},
-    1, AnySize);
+  const EmitterSet set = WithLights({Rectangle(0, 1, 0, 1, 1.0, 7), Rectangle(5, 6, 0, 2, 1.0, 3),
+    Rectangle(1, 2, 0, 1, 0.0, 7), Rectangle(9, 10, 0, 1, 1.0, -1)});
   ASSERT_EQ(set.Signs().size(), 2U);
   EXPECT_EQ(set.Signs()[0].Id, 3);
   EXPECT_EQ(set.Signs()[1].Id, 7);
@@ -110,7 +115,7 @@ TEST(Emitters, SignWithTwoFaces)
       Vec3(0.1), Vec3(0.1) + 0.6 * u, Vec3(0.1) + 0.6 * u + 0.2 * v, Vec3(0.1) + 0.2 * v};
     EmitterCell back = front;
     std::reverse(back.Vertices.begin(), back.Vertices.end());
-    const EmitterSet set({front, back}, 1, AnySize);
+    const EmitterSet set = WithLights({front, back});
     EXPECT_GT(glm::dot(set.Signs()[0].Normal, set.CellNormal(0)), 1.0 - 1e-9) << tilt;
     EXPECT_NEAR(set.Signs()[0].Radius, 0.5 * std::hypot(0.6, 0.2), 1e-9) << tilt;
   }
@@ -126,7 +131,7 @@ TEST(Emitters, LightsAndTheirGroups)
   }
   cells.push_back(Rectangle(20, 21, 0, 1, 5.0, -1));
   cells.push_back(Rectangle(22, 23, 0, 1, 5.0, -1));
-  const EmitterSet set(cells, 1, AnySize);
+  const EmitterSet set = WithLights(cells);
   ASSERT_EQ(set.Lights().size(), 3U);
   const std::array<double, 3> intensities = {5 * 4 * 3.0, 5.0, 5.0};
   const std::array<double, 3> areas = {5 * 4.0, 1.0, 1.0};
@@ -162,7 +167,7 @@ TEST(Emitters, BoardsOfASign)
     }
     cells.push_back(cell);
   }
-  const EmitterSet set(cells, 1, AnySize);
+  const EmitterSet set = WithLights(cells);
   ASSERT_EQ(set.Lights().size(), 2U);
   EXPECT_NEAR(glm::dot(set.Root(1).Centre - set.Root(0).Centre, n), 0.3, 1e-5);
   for (const std::size_t light : {0, 1})
@@ -208,7 +213,7 @@ TEST(Emitters, LightsFillTheirRectangles)
   }
   for (const auto& [cells, count] : {std::pair{line, 2U}, {boards, 2U}, {Ring(), 8U}})
   {
-    const EmitterSet set(cells, 1, AnySize);
+    const EmitterSet set = WithLights(cells);
     EXPECT_EQ(set.Lights().size(), count);
     double intensity = 0.0;
     for (std::size_t light = 0; light < set.Lights().size(); ++light)
@@ -226,7 +231,7 @@ TEST(Emitters, LightsFillTheirRectangles)
 // The lattice of a ring lies along the ring.
 TEST(Emitters, LatticeOfARing)
 {
-  const EmitterSet set(Ring(), 1, AnySize);
+  const EmitterSet set = WithLights(Ring());
   for (const LightGroup& group : set.Groups())
   {
     for (const Vec3& corner : group.Corners)
@@ -246,7 +251,7 @@ TEST(Emitters, DistanceFromATriangle)
     cell.Vertices = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}};
     std::rotate(cell.Vertices.begin(), cell.Vertices.begin() + first, cell.Vertices.end());
     cell.Luminance.fill(1.0);
-    const EmitterSet set({cell}, 1, AnySize);
+    const EmitterSet set = WithLights({cell});
     const LightGroup& light = set.Root(0);
     EXPECT_NEAR(light.Distance({3, 0.5, 2}), 2.0, 1e-12) << first;
     EXPECT_NEAR(light.Distance({5, 0.5, 0}), 1.0, 1e-12) << first;
@@ -271,7 +276,7 @@ TEST(Emitters, PatternsOfManyCellsAreCoarsened)
       intensity += 0.01 * luminance;
     }
   }
-  const EmitterSet set(cells, 1, AnySize);
+  const EmitterSet set = WithLights(cells);
   ASSERT_EQ(set.Lights().size(), 1U);
   EXPECT_LT(set.Groups().size(), 80U);
   const LightGroup& root = set.Groups()[static_cast<std::size_t>(set.Lights()[0])];
@@ -287,9 +292,10 @@ TEST(Emitters, PatternsOfManyCellsAreCoarsened)
 // Large lights are left to the lines: a sign counts with all its lit cells.
 TEST(Emitters, LargeLightsAreLeftToLines)
 {
-  const EmitterSet set({Rectangle(0, 1, 0, 1, 1.0, 0), Rectangle(1, 2, 0, 1, 1.0, 0),
-                         Rectangle(5, 6, 0, 1, 1.0, -1), Rectangle(7, 9, 0, 1, 1.0, -1)},
-    1, 1.5);
+  EmitterSet set({Rectangle(0, 1, 0, 1, 1.0, 0), Rectangle(1, 2, 0, 1, 1.0, 0),
+                   Rectangle(5, 6, 0, 1, 1.0, -1), Rectangle(7, 9, 0, 1, 1.0, -1)},
+    1);
+  set.FormLights(1.5);
   EXPECT_TRUE(set.LeftToLines(0));
   EXPECT_TRUE(set.LeftToLines(1));
   EXPECT_FALSE(set.LeftToLines(2));
@@ -367,7 +373,7 @@ TEST(Emitters, BordersOfSmokeDivideLights)
   {
     const Medium smoke = TwoLayers(0.0F, dense ? 0.2F : 0.05F);
     const SmokeBorders borders(smoke, 1.0);
-    const EmitterSet set(plate, 1, AnySize, &borders);
+    const EmitterSet set = WithLights(plate, &borders);
     ASSERT_EQ(set.Lights().size(), dense ? 2U : 1U);
     double intensity = 0.0;
     double least = 1e300;
@@ -382,7 +388,7 @@ TEST(Emitters, BordersOfSmokeDivideLights)
   // Red is dimmed less than other light.
   const Medium thin = TwoLayers(0.0F, 0.05F);
   const SmokeBorders blue(thin, 4.0);
-  EXPECT_EQ(EmitterSet(plate, 1, AnySize, &blue).Lights().size(), 2U);
+  EXPECT_EQ(WithLights(plate, &blue).Lights().size(), 2U);
 }
 
 // A plate that ends the smoke is divided, whichever way rounding places it, and one on its back,
@@ -404,8 +410,8 @@ TEST(Emitters, BordersOfSmokeDivideLightsInItsOuterFace)
     }
     const SmokeBorders behind(under, 1.0);
     const SmokeBorders before(over, 1.0);
-    EXPECT_EQ(EmitterSet(plate, 1, AnySize, &before).Lights().size(), 2U) << off;
-    EXPECT_EQ(EmitterSet(plate, 1, AnySize, &behind).Lights().size(), 1U) << off;
+    EXPECT_EQ(WithLights(plate, &before).Lights().size(), 2U) << off;
+    EXPECT_EQ(WithLights(plate, &behind).Lights().size(), 1U) << off;
   }
 }
 
@@ -426,7 +432,7 @@ TEST(Emitters, NoisySmokeMakesNoSwarmOfLights)
   }
   const Medium smoke({grid});
   const SmokeBorders borders(smoke, 1.0);
-  const EmitterSet set({Rectangle(0, 2, 0, 1, 10.0, -1)}, 1, AnySize, &borders);
+  const EmitterSet set = WithLights({Rectangle(0, 2, 0, 1, 10.0, -1)}, &borders);
   EXPECT_LE(set.Lights().size(), 16U);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,7 +33,9 @@ EmitterSet Lights()
       last.Vertices[first], last.Vertices[first + 1], last.Vertices[(first + 2) % 4]};
     cells.push_back(half);
   }
-  return {cells, 1, 1e9};
+  EmitterSet lights(std::move(cells), 1);
+  lights.FormLights(1e9);
+  return lights;
 }
 
 using Function = std::function<double(double along, double up)>;

@@ -34,7 +34,8 @@ std::vector<EmitterCell> Pattern()
 // is known from their exact quadrature.
 TEST(PlateStencil, SumsPolynomialsExactly)
 {
-  const EmitterSet lights(Pattern(), 3, 1e9);
+  EmitterSet lights(Pattern(), 3);
+  lights.FormLights(1e9);
   ASSERT_EQ(lights.Lights().size(), 1U);
   const LightGroup& root = lights.Groups()[lights.Lights()[0]];
   ASSERT_NE(root.Stencil, nullptr);
@@ -78,7 +79,8 @@ TEST(PlateStencil, SumsPolynomialsExactly)
 
 TEST(PlateStencil, ServesNoReceiverThatIsClose)
 {
-  const EmitterSet lights(Pattern(), 1, 1e9);
+  EmitterSet lights(Pattern(), 1);
+  lights.FormLights(1e9);
   const LightGroup& root = lights.Groups()[lights.Lights()[0]];
   EXPECT_TRUE(root.Stencil->PlacesFor({1.5, 0.5, 0.2}, 1.0).empty());
   // Light that changes quickly with the angle needs more distance.
