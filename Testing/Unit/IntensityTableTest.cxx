@@ -2,6 +2,7 @@
 #include "EmissionLaw.h"
 #include "Errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -99,6 +100,21 @@ TEST(IntensityTable, RefusesWhatIsNoDistribution)
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {0, 0}), Error);
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {1, NAN}), Error);
   EXPECT_THROW(IntensityTable({0, 90}, {0}, {1}), Error);
+}
+
+// Whole exponents or not, to a rounding to double of each factor.
+TEST(EmissionLaw, PowersOfTheCosine)
+{
+  for (const double exponent : {0.0, 0.5, 1.0, 2.0, 2.5, 5.0, 20.0, 127.0, 128.0, 129.0, 1e6})
+  {
+    for (const double cosine : {1e-3, 0.3, 0.99, 1.0})
+    {
+      const double expected = std::pow(cosine, exponent);
+      EXPECT_NEAR(EmissionLaw(exponent).Relative(Vec3(0.0), cosine), expected,
+        2e-16 * std::max(1.0, exponent) * expected)
+        << exponent << " " << cosine;
+    }
+  }
 }
 
 TEST(EmissionLaw, CoarserOutsideItsBeam)
