@@ -24,18 +24,8 @@ namespace smokevis
 namespace
 {
 
-/// A light of more leaves is replaced by a lattice.
-constexpr std::size_t MostLeaves = 20;
-
-/// Leaves one of corners that follow each other in one place.
-void DropRepeated(std::vector<Vec3>& vertices)
-{
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  while (vertices.size() > 1 && vertices.back() == vertices.front())
-  {
-    vertices.pop_back();
-  }
-}
+/// Share of a cell's size within which two corners are one, but for rounding.
+constexpr double RepeatedShare = 1e-12;
 
 void CheckCell(const EmitterCell& cell, std::size_t index, int bands)
 {
@@ -148,7 +138,7 @@ EmitterSet::EmitterSet(std::vector<EmitterCell> cells, int bands)
   for (std::size_t index = 0; index < this->Cells_.size(); ++index)
   {
     EmitterCell& cell = this->Cells_[index];
-    DropRepeated(cell.Vertices);
+    DropRepeated(cell.Vertices, RepeatedShare);
     CheckCell(cell, index, bands);
     const Vec3 area = AreaVector(cell.Vertices);
     this->Areas_.push_back(glm::length(area));
@@ -308,15 +298,7 @@ void EmitterSet::FormLights(
 
 void EmitterSet::AddLight(std::vector<LightGroup> leaves)
 {
-  const auto lit = std::stable_partition(leaves.begin(), leaves.end(),
-    [](const LightGroup& leaf)
-    { return *std::max_element(leaf.Intensity.begin(), leaf.Intensity.end()) <= 0.0; });
-  const std::vector<LightGroup> dark(leaves.begin(), lit);
-  leaves.erase(leaves.begin(), lit);
-  if (leaves.size() > MostLeaves)
-  {
-    leaves = Coarsened(leaves, dark);
-  }
+  leaves = Simplified(std::move(leaves));
   if (!leaves.empty())
   {
     this->Lights_.push_back(static_cast<int>(this->Groups_.size()));

@@ -18,6 +18,11 @@ namespace
 constexpr double LeastFilled = 0.25;
 /// A cut that does not take this share of the rectangles away is made in the middle.
 constexpr double SmallestGain = 0.1;
+/// Share of the size of a part of a leaf within which two of its corners are one: single precision
+/// knows surfaces no better.
+constexpr double RepeatedShare = 1e-6;
+/// A light of more leaves is replaced by a lattice.
+constexpr std::size_t MostLeaves = 20;
 /// Rectangles of a lattice along its longer side, and how often these are halved at most.
 constexpr double LatticeAcross = 4.0;
 constexpr int Halvings = 2;
@@ -126,128 +131,23 @@ std::vector<LightGroup> PartsOnSide(
     KeepSide(
       std::vector<Vec3>(leaf.Corners.begin(), leaf.Corners.end()),
       [&](const Vec3& point) { return side * plane.Height(point); }, part.Vertices);
+    // A leaf has axes along its first edge.
+    DropRepeated(part.Vertices, RepeatedShare);
     part.SignId = leaf.SignId;
     for (int band = 0; band < MaxBands; ++band)
     {
       part.Luminance[band] = leaf.Intensity[band] / leaf.Area;
     }
+    const std::size_t first = kept.size();
     AddLeaves(part, leaf.Normal, leaf.Law, leaf.Area, kept);
+    std::for_each(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(),
+      [&leaf](LightGroup& own) { own.Crossed = leaf.Crossed; });
   }
   return kept;
 }
 
-} // namespace
-
-LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
-  const EmissionLaw& law, const std::array<Vec3, 4>& corners)
-{
-  LightGroup leaf;
-  leaf.Corners = corners;
-  leaf.Normal = normal;
-  leaf.Law = law;
-  leaf.SignId = signId;
-  for (const Triangle& half :
-    {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
-  {
-    const double area = AreaOf(half);
-    leaf.Area += area;
-    leaf.Centre += area * (half[0] + half[1] + half[2]);
-  }
-  leaf.Centre /= 3.0 * leaf.Area;
-  for (const Vec3& corner : corners)
-  {
-    leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
-  }
-  for (int band = 0; band < MaxBands; ++band)
-  {
-    leaf.Intensity[band] = luminance[band] * leaf.Area;
-  }
-  return leaf;
-}
-
-void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
-  std::vector<LightGroup>& leaves)
-{
-  const std::vector<Vec3>& vertices = cell.Vertices;
-  for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
-  {
-    const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
-    LightGroup leaf = MakeLeaf(
-      cell.Luminance, cell.SignId, normal, law, {vertices[0], vertices[v], vertices[v + 1], last});
-    if (leaf.Area > 1e-12 * area)
-    {
-      leaves.push_back(std::move(leaf));
-    }
-  }
-}
-
-std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through)
-{
-  const PlateAxes axes(leaves.front(), through);
-  const auto [low, high] = Rectangle(axes, leaves);
-  return {
-    axes.Point(low), axes.Point({high.x, low.y}), axes.Point(high), axes.Point({low.x, high.y})};
-}
-
-std::vector<std::vector<LightGroup>> DivideLeaves(std::vector<LightGroup> leaves,
-  const std::function<std::optional<Plane>(const std::vector<LightGroup>&, int)>& find)
-{
-  struct Group
-  {
-    std::vector<LightGroup> Leaves;
-    int Cuts = 0;
-  };
-  std::vector<std::vector<LightGroup>> groups;
-  std::vector<Group> open;
-  open.push_back({std::move(leaves), 0});
-  while (!open.empty())
-  {
-    Group group = std::move(open.back());
-    open.pop_back();
-    if (group.Leaves.empty())
-    {
-      continue;
-    }
-    const std::optional<Plane> plane = find(group.Leaves, group.Cuts);
-    if (!plane)
-    {
-      groups.push_back(std::move(group.Leaves));
-      continue;
-    }
-    for (const double side : {1.0, -1.0})
-    {
-      open.push_back({PartsOnSide(group.Leaves, *plane, side), group.Cuts + 1});
-    }
-  }
-  return groups;
-}
-
-std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
-{
-  std::vector<std::vector<LightGroup>> parts;
-  std::vector<std::vector<LightGroup>> open;
-  open.push_back(std::move(leaves));
-  while (!open.empty())
-  {
-    std::vector<LightGroup> part = std::move(open.back());
-    open.pop_back();
-    const PlateAxes axes(part.front(), part.front().Centre);
-    const Rectangle around(axes, part);
-    const double area = std::accumulate(part.begin(), part.end(), 0.0,
-      [](double sum, const LightGroup& leaf) { return sum + leaf.Area; });
-    if (part.size() == 1 || area >= LeastFilled * around.Area())
-    {
-      parts.push_back(std::move(part));
-      continue;
-    }
-    const std::size_t cut = Cut(axes, around, part);
-    open.emplace_back(part.begin() + cut, part.end());
-    part.resize(cut);
-    open.push_back(std::move(part));
-  }
-  return parts;
-}
-
+/// A lattice of rectangles that send out what a pattern of many leaves does.
+/// @param dark the board's leaves that send out nothing
 std::vector<LightGroup> Coarsened(
   const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark)
 {
@@ -339,6 +239,138 @@ std::vector<LightGroup> Coarsened(
     }
   }
   return lattice;
+}
+
+} // namespace
+
+LightGroup MakeLeaf(const Spectrum& luminance, int signId, const Vec3& normal,
+  const EmissionLaw& law, const std::array<Vec3, 4>& corners)
+{
+  LightGroup leaf;
+  leaf.Corners = corners;
+  leaf.Normal = normal;
+  leaf.Law = law;
+  leaf.SignId = signId;
+  for (const Triangle& half :
+    {Triangle{corners[0], corners[1], corners[2]}, Triangle{corners[0], corners[2], corners[3]}})
+  {
+    const double area = AreaOf(half);
+    leaf.Area += area;
+    leaf.Centre += area * (half[0] + half[1] + half[2]);
+  }
+  leaf.Centre /= 3.0 * leaf.Area;
+  for (const Vec3& corner : corners)
+  {
+    leaf.Radius = std::max(leaf.Radius, glm::length(corner - leaf.Centre));
+  }
+  for (int band = 0; band < MaxBands; ++band)
+  {
+    leaf.Intensity[band] = luminance[band] * leaf.Area;
+  }
+  return leaf;
+}
+
+void AddLeaves(const EmitterCell& cell, const Vec3& normal, const EmissionLaw& law, double area,
+  std::vector<LightGroup>& leaves)
+{
+  const std::vector<Vec3>& vertices = cell.Vertices;
+  for (std::size_t v = 1; v + 1 < vertices.size(); v += 2)
+  {
+    const Vec3& last = v + 2 < vertices.size() ? vertices[v + 2] : vertices[v + 1];
+    LightGroup leaf = MakeLeaf(
+      cell.Luminance, cell.SignId, normal, law, {vertices[0], vertices[v], vertices[v + 1], last});
+    if (leaf.Area > 1e-12 * area)
+    {
+      leaves.push_back(std::move(leaf));
+    }
+  }
+}
+
+std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Vec3& through)
+{
+  const PlateAxes axes(leaves.front(), through);
+  const auto [low, high] = Rectangle(axes, leaves);
+  return {
+    axes.Point(low), axes.Point({high.x, low.y}), axes.Point(high), axes.Point({low.x, high.y})};
+}
+
+std::vector<std::vector<LightGroup>> DivideLeaves(std::vector<LightGroup> leaves,
+  const std::function<std::optional<Plane>(const std::vector<LightGroup>&, int)>& find)
+{
+  struct Group
+  {
+    std::vector<LightGroup> Leaves;
+    int Cuts = 0;
+  };
+  std::vector<std::vector<LightGroup>> groups;
+  std::vector<Group> open;
+  open.push_back({std::move(leaves), 0});
+  while (!open.empty())
+  {
+    Group group = std::move(open.back());
+    open.pop_back();
+    if (group.Leaves.empty())
+    {
+      continue;
+    }
+    const std::optional<Plane> plane = find(group.Leaves, group.Cuts);
+    if (!plane)
+    {
+      groups.push_back(std::move(group.Leaves));
+      continue;
+    }
+    for (const double side : {1.0, -1.0})
+    {
+      open.push_back({PartsOnSide(group.Leaves, *plane, side), group.Cuts + 1});
+    }
+  }
+  return groups;
+}
+
+std::vector<std::vector<LightGroup>> GroupLeaves(
+  std::vector<LightGroup> leaves, const std::function<bool(const std::vector<LightGroup>&)>& does)
+{
+  std::vector<std::vector<LightGroup>> groups;
+  std::vector<std::vector<LightGroup>> open;
+  open.push_back(std::move(leaves));
+  while (!open.empty())
+  {
+    std::vector<LightGroup> group = std::move(open.back());
+    open.pop_back();
+    if (group.size() == 1 || does(group))
+    {
+      groups.push_back(std::move(group));
+      continue;
+    }
+    const PlateAxes axes(group.front(), group.front().Centre);
+    const std::size_t cut = Cut(axes, Rectangle(axes, group), group);
+    open.emplace_back(group.begin() + cut, group.end());
+    group.resize(cut);
+    open.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves)
+{
+  return GroupLeaves(std::move(leaves),
+    [](const std::vector<LightGroup>& group)
+    {
+      const double area = std::accumulate(group.begin(), group.end(), 0.0,
+        [](double sum, const LightGroup& leaf) { return sum + leaf.Area; });
+      const PlateAxes axes(group.front(), group.front().Centre);
+      return area >= LeastFilled * Rectangle(axes, group).Area();
+    });
+}
+
+std::vector<LightGroup> Simplified(std::vector<LightGroup> leaves)
+{
+  const auto lit = std::stable_partition(leaves.begin(), leaves.end(),
+    [](const LightGroup& leaf)
+    { return *std::max_element(leaf.Intensity.begin(), leaf.Intensity.end()) <= 0.0; });
+  const std::vector<LightGroup> dark(leaves.begin(), lit);
+  leaves.erase(leaves.begin(), lit);
+  return leaves.size() > MostLeaves && !leaves.front().Crossed ? Coarsened(leaves, dark) : leaves;
 }
 
 } // namespace smokevis

@@ -30,14 +30,19 @@ std::array<Vec3, 4> RectangleAround(std::span<const LightGroup> leaves, const Ve
 std::vector<std::vector<LightGroup>> DivideLeaves(std::vector<LightGroup> leaves,
   const std::function<std::optional<Plane>(const std::vector<LightGroup>&, int)>& find);
 
-/// Divides leaves of one plane so that each group fills a quarter at least of the rectangle around
-/// it: what is worked out of a light from afar takes it for such a rectangle.
+/// Sorts leaves of one plane into groups of neighbours, as large as the rectangle around each does
+/// for what is worked out of a light: it is taken for that.
+/// @param does whether it does for a group; that of one leaf does always
+std::vector<std::vector<LightGroup>> GroupLeaves(
+  std::vector<LightGroup> leaves, const std::function<bool(const std::vector<LightGroup>&)>& does);
+
+/// The same so that each group fills a quarter at least of the rectangle around it.
 std::vector<std::vector<LightGroup>> FilledParts(std::vector<LightGroup> leaves);
 
-/// A lattice of rectangles that send out what a pattern of many leaves does, finer where the board
-/// ends: light must not come from beside it.
-/// @param dark the board's leaves that send out nothing
-std::vector<LightGroup> Coarsened(
-  const std::vector<LightGroup>& leaves, const std::vector<LightGroup>& dark);
+/// Leaves of one plane that are lit; of more than twenty, if nothing crosses them, a lattice of
+/// rectangles that send out what they do, finer where the board ends: light must not come from
+/// beside it.
+/// @param leaves of all of the board, lit and dark
+std::vector<LightGroup> Simplified(std::vector<LightGroup> leaves);
 
 } // namespace smokevis

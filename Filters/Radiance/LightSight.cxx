@@ -12,6 +12,10 @@ namespace smokevis
 namespace
 {
 
+/// How far from the edges of a plate that something crosses places lie to which shadow rays lead,
+/// in tolerances of the shapes: these do not tell what stands closer. At most a share of each edge.
+constexpr double Margin = 4.0;
+constexpr double MostMargin = 0.25;
 /// Below this radius over distance a light is seen whole or not at all.
 constexpr double SmallRatio = 0.05;
 /// Places of a light that is partly hidden to which shadow rays lead: a lattice of Fibonacci's, so
@@ -86,7 +90,20 @@ bool LightSight::Crossed(const LightGroup& group) const
 
 Vec3 LightSight::Before(const LightGroup& group, const glm::dvec2& place) const
 {
-  return group.At(place.x, place.y) + Lift * this->Shapes_.Tolerance() * group.Normal;
+  const double tolerance = this->Shapes_.Tolerance();
+  glm::dvec2 at = place;
+  if (group.Crossed)
+  {
+    // Away from what may stand at the edges.
+    const std::array<Vec3, 4>& corners = group.Corners;
+    const glm::dvec2 lengths(
+      glm::length(glm::mix(corners[1] - corners[0], corners[2] - corners[3], at.y)),
+      glm::length(glm::mix(corners[3] - corners[0], corners[2] - corners[1], at.x)));
+    const glm::dvec2 margin =
+      glm::min(glm::dvec2(MostMargin), Margin * tolerance / glm::max(lengths, tolerance));
+    at = glm::clamp(at, margin, 1.0 - margin);
+  }
+  return group.At(at.x, at.y) + Lift * tolerance * group.Normal;
 }
 
 std::span<const glm::dvec2> LightSight::Lattice()

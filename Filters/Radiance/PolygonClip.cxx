@@ -2,6 +2,7 @@
 
 #include "Triangle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,19 @@ std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box)
     std::swap(kept, next);
   }
   return kept;
+}
+
+//------------------------------------------------------------------------------
+void DropRepeated(std::vector<Vec3>& polygon, double share)
+{
+  const double distance = polygon.empty() ? 0.0 : share * glm::length(Box::Around(polygon).Size());
+  const auto same = [distance](const Vec3& a, const Vec3& b)
+  { return glm::length(a - b) <= distance; };
+  polygon.erase(std::unique(polygon.begin(), polygon.end(), same), polygon.end());
+  while (polygon.size() > 1 && same(polygon.back(), polygon.front()))
+  {
+    polygon.pop_back();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -58,6 +58,10 @@ inline void KeepStrip(
 /// The part of a convex polygon in a box.
 std::vector<Vec3> InBox(const std::vector<Vec3>& polygon, const Box& box);
 
+/// Leaves one of corners that follow each other and lie no farther apart than a share of the
+/// polygon's size.
+void DropRepeated(std::vector<Vec3>& polygon, double share);
+
 double AreaOf(const FlatPolygon& polygon);
 /// Newell's normal of a plane polygon in space; its length is the area.
 Vec3 AreaVector(const std::vector<Vec3>& polygon);

@@ -1,11 +1,14 @@
 #include "SurfaceCuts.h"
 
+#include "Box.h"
 #include "Geometry.h"
 #include "LightLeaves.h"
 #include "LightSight.h"
+#include "Triangle.h"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
+#include <tuple>
 #include <utility>
 
 namespace smokevis
@@ -14,18 +17,37 @@ namespace smokevis
 namespace
 {
 
-/// Times that a light, and each of its parts, is divided at most: a fine mesh that goes through it
-/// makes no swarm of lights.
+/// Times that a light, and each of its parts, is divided at most.
 constexpr int MostCuts = 4;
-/// Leaves of a part of which each may be a light of its own.
-constexpr std::size_t MostLeaves = 8;
-/// Share of a plate across a line that each side of it has to have, and of its diagonal that the
-/// line has to be long.
+/// Share of a plate across a line that each side of it has to have, and of the line through the
+/// plate that surfaces have to lie on: what is small against the plate, or round, makes no swarm of
+/// lights.
 constexpr double LeastShare = 0.002;
-constexpr double LeastLength = 0.01;
+constexpr double LeastCovered = 1.0 / 3.0;
+/// Lines that are looked at, those with the longest pieces of triangles first.
+constexpr int MostLines = 16;
 
-/// The piece of a triangle in a plane, if it lies on both sides of that.
-std::optional<std::array<Vec3, 2>> InPlane(const Triangle& triangle, const Plane& plane)
+/// What a plane has of a triangle.
+struct Piece
+{
+  Vec3 Begin, End;
+  /// What lies on a plate [m].
+  double Length = 0.0;
+
+  /// Longest first, and the same whichever way the triangles come.
+  bool operator<(const Piece& other) const
+  {
+    const auto key = [](const Piece& piece)
+    {
+      return std::make_tuple(-piece.Length, piece.Begin.x, piece.Begin.y, piece.Begin.z,
+        piece.End.x, piece.End.y, piece.End.z);
+    };
+    return key(*this) < key(other);
+  }
+};
+
+/// None of a triangle that lies on one side of the plane.
+std::optional<Piece> InPlane(const Triangle& triangle, const Plane& plane)
 {
   std::array<Vec3, 2> ends{};
   std::size_t found = 0;
@@ -40,11 +62,11 @@ std::optional<std::array<Vec3, 2>> InPlane(const Triangle& triangle, const Plane
       ends[found++] = here + a / (a - b) * (next - here);
     }
   }
-  return found == ends.size() ? std::optional(ends) : std::nullopt;
+  return found == ends.size() ? std::optional(Piece{ends[0], ends[1]}) : std::nullopt;
 }
 
-/// The same between the edges of a rectangle.
-double LengthWithin(const std::array<Vec3, 2>& piece, const std::array<Vec3, 4>& rectangle)
+/// Length of the straight line between two points that lies within a rectangle.
+double LengthWithin(const Vec3& begin, const Vec3& end, const std::array<Vec3, 4>& rectangle)
 {
   const auto place = [&rectangle](const Vec3& point)
   {
@@ -53,12 +75,11 @@ double LengthWithin(const std::array<Vec3, 2>& piece, const std::array<Vec3, 4>&
     const Vec3 from = point - rectangle[0];
     return Vec3(glm::dot(from, u) / glm::dot(u, u), glm::dot(from, v) / glm::dot(v, v), 0.0);
   };
-  const Vec3 begin = place(piece[0]);
   double from = 0.0;
   double to = 1.0;
-  const bool meets =
-    Box{Vec3(0.0, 0.0, -1.0), Vec3(1.0)}.Clip(begin, 1.0 / (place(piece[1]) - begin), from, to);
-  return meets ? (to - from) * glm::length(piece[1] - piece[0]) : 0.0;
+  const bool meets = Box{Vec3(0.0, 0.0, -1.0), Vec3(1.0)}.Clip(
+    place(begin), 1.0 / (place(end) - place(begin)), from, to);
+  return meets ? (to - from) * glm::length(end - begin) : 0.0;
 }
 
 /// Whether a plane leaves enough of a plate with these corners on both sides.
@@ -98,21 +119,43 @@ std::optional<Plane> SurfaceCuts::Longest(
   // nothing.
   const double lift = LightSight::Lift * this->Shapes_.Tolerance();
   const Plane before{normal, glm::dot(normal, centre) + lift};
-  std::optional<Plane> longest;
-  double most = LeastLength * diagonal;
+  std::vector<Piece> pieces;
   for (const Triangle& triangle : this->Shapes_.SurfacesNear(centre, 0.5 * diagonal + lift))
   {
-    const auto piece = InPlane(triangle, before);
-    const double length = piece ? LengthWithin(*piece, plate) : 0.0;
-    if (length > most)
+    if (std::optional<Piece> piece = InPlane(triangle, before))
     {
-      const Vec3 across = glm::normalize(glm::cross(normal, (*piece)[1] - (*piece)[0]));
-      const Plane plane{across, glm::dot(across, (*piece)[0])};
-      if (Divides(plane, corners))
+      piece->Length = LengthWithin(piece->Begin, piece->End, plate);
+      if (piece->Length > lift)
       {
-        longest = plane;
-        most = length;
+        pieces.push_back(*piece);
       }
+    }
+  }
+  std::sort(pieces.begin(), pieces.end());
+  std::optional<Plane> longest;
+  double most = 0.0;
+  for (int line = 0; line < MostLines && !pieces.empty(); ++line)
+  {
+    const Piece first = pieces.front();
+    const Vec3 along = glm::normalize(first.End - first.Begin);
+    const Vec3 across = glm::cross(normal, along);
+    const Plane plane{across, glm::dot(across, first.Begin)};
+    double covered = 0.0;
+    std::erase_if(pieces,
+      [&](const Piece& piece)
+      {
+        const bool lies =
+          std::abs(plane.Height(piece.Begin)) <= lift && std::abs(plane.Height(piece.End)) <= lift;
+        covered += lies ? piece.Length : 0.0;
+        return lies;
+      });
+    const Vec3 reach = diagonal * along;
+    const double all = LengthWithin(first.Begin - reach, first.End + reach, plate);
+    covered = std::min(covered, all);
+    if (covered >= LeastCovered * all && covered > most && Divides(plane, corners))
+    {
+      longest = plane;
+      most = covered;
     }
   }
   return longest;
@@ -120,22 +163,39 @@ std::optional<Plane> SurfaceCuts::Longest(
 
 std::vector<std::vector<LightGroup>> SurfaceCuts::Divide(std::vector<LightGroup> leaves) const
 {
-  std::vector<std::vector<LightGroup>> groups =
-    DivideLeaves(std::move(leaves), [this](const std::vector<LightGroup>& group, int cuts)
-      { return cuts < MostCuts ? this->Longest(group, CornersOf(group)) : std::nullopt; });
-  // What is seen of a group is told by the rectangle around it, which may reach through the wall.
+  // What is seen of a group is told by the rectangle around it, which may reach through the wall
+  // where the leaves do not.
+  const auto ends = [this](const std::vector<LightGroup>& group)
+  { return !this->Longest(group, RectangleAround(group, group.front().Centre)); };
   std::vector<std::vector<LightGroup>> parts;
-  for (std::vector<LightGroup>& group : groups)
+  if (ends(leaves))
   {
-    if (group.size() > 1 && group.size() <= MostLeaves &&
-        this->Longest(group, RectangleAround(group, group.front().Centre)))
+    parts.push_back(std::move(leaves));
+    return parts;
+  }
+  for (std::vector<LightGroup>& board : FilledParts(std::move(leaves)))
+  {
+    if (ends(board))
     {
-      std::transform(group.begin(), group.end(), std::back_inserter(parts),
-        [](const LightGroup& leaf) { return std::vector<LightGroup>{leaf}; });
+      parts.push_back(std::move(board));
+      continue;
     }
-    else
+    if (this->Longest(board, CornersOf(board)))
     {
-      parts.push_back(std::move(group));
+      // Not after the cut, as a lattice for a part would reach beyond it.
+      board = Simplified(std::move(board));
+    }
+    // The wall stands at their edges: however far, they may be seen in part.
+    std::for_each(board.begin(), board.end(), [](LightGroup& leaf) { leaf.Crossed = true; });
+    std::vector<std::vector<LightGroup>> groups =
+      DivideLeaves(std::move(board), [this](const std::vector<LightGroup>& group, int cuts)
+        { return cuts < MostCuts ? this->Longest(group, CornersOf(group)) : std::nullopt; });
+    for (std::vector<LightGroup>& group : groups)
+    {
+      for (std::vector<LightGroup>& part : GroupLeaves(std::move(group), ends))
+      {
+        parts.push_back(std::move(part));
+      }
     }
   }
   return parts;

@@ -13,8 +13,8 @@ namespace smokevis
 
 class Geometry;
 
-/// Divides lights so that a wall that goes through one hides all of a part, or nothing of it,
-/// wherever it is seen from on one side of the wall.
+/// Divides lights so that a wall that goes through one hides all of a part, or nothing of it, but
+/// for ways past the wall's own edges.
 class SurfaceCuts
 {
 public:
@@ -25,8 +25,8 @@ public:
   std::vector<std::vector<LightGroup>> Divide(std::vector<LightGroup> leaves) const;
 
 private:
-  /// Across the longest line along which a triangle crosses the rectangle around leaves; none where
-  /// no line has enough of what has these corners on either side.
+  /// Across the line on which surfaces cross most of the rectangle around leaves; none where they
+  /// cover little of any line, or none has enough of what has these corners on either side.
   std::optional<Plane> Longest(
     const std::vector<LightGroup>& leaves, std::span<const Vec3> corners) const;
 

@@ -142,6 +142,38 @@ TEST(DirectLight, OfALampThatAWallGoesThrough)
   }
 }
 
+// A high wall that ends in the middle of a lamp hides some of each part from somewhere, however
+// far: all around the lamp it is told to 5 % of what it sends there unhidden, a sum over 100 x 100
+// places before the plate being right.
+TEST(DirectLight, OfALampThatAWallEndsIn)
+{
+  SceneDescription description = Room({Square(Vec3(0.0), 0.4, -1)});
+  description.Surfaces.Points = {{0, -1, -1}, {0, 0, -1}, {0, 0, 19}, {0, -1, 19}};
+  description.Surfaces.Triangles = {{0, 1, 2}, {0, 2, 3}};
+  description.Surfaces.TriangleCell = {0, 0};
+  description.Surfaces.CellReflectance = {{0.0, 0.0, 0.0}};
+  const Scene scene(description);
+  constexpr int Steps = 100;
+  for (int direction = 0; direction < 36; ++direction)
+  {
+    const double angle = (direction + 0.37) * pi / 18.0;
+    const Vec3 point(10.0 * std::cos(angle), 10.0 * std::sin(angle), 6.0);
+    double expected = 0.0;
+    double unhidden = 0.0;
+    for (int i = 0; i < Steps * Steps; ++i)
+    {
+      const Vec3 place(0.4 * ((i % Steps + 0.5) / Steps - 0.5),
+        0.4 * ((i / Steps + 0.5) / Steps - 0.5), 10.0 * scene.Shapes().Tolerance());
+      const Vec3 way = point - place;
+      const double light =
+        100.0 * 0.16 / (Steps * Steps) * way.z * way.z / std::pow(glm::length(way), 4);
+      unhidden += light;
+      expected += scene.Shapes().Visible(point, place) ? light : 0.0;
+    }
+    EXPECT_NEAR(FromBelow(description, point), expected, 0.05 * unhidden) << direction;
+  }
+}
+
 /// Fluence at a point of a plate of luminance 100 that may be any quadrilateral, its corners as
 /// EmitterCell's: a sum over 200 x 200 places, each dimmed along its own way.
 double SumOver(const Scene& scene, const std::vector<Vec3>& corners, const Vec3& point)
