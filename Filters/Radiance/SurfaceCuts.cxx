@@ -21,9 +21,9 @@ namespace
 /// Times that a light, and each of its parts, is divided at most.
 constexpr int MostCuts = 4;
 /// Share of a plate across a line that each side of it has to have, and of the line through the
-/// plate that surfaces have to lie on: what is small against the plate, or round, makes no swarm of
-/// lights.
-constexpr double LeastShare = 0.002;
+/// plate that surfaces have to lie on: a frame, and what is small against the plate, or round,
+/// makes no swarm of lights.
+constexpr double LeastShare = 0.02;
 constexpr double LeastCovered = 1.0 / 3.0;
 /// Lines that are looked at, those with the longest pieces of triangles first.
 constexpr int MostLines = 16;
