@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -67,12 +69,7 @@ TEST(SurfaceCuts, PostThatStandsOnALamp)
     scenes::AddBlock(scene.Surfaces, {-0.05, -0.3, 0.0}, {0.05, 0.05, top}, 0.5, 0.5);
     const std::vector<double> areas = Areas(scene);
     EXPECT_GE(areas.size(), 4U);
-    double sum = 0.0;
-    for (const double area : areas)
-    {
-      sum += area;
-    }
-    EXPECT_NEAR(sum, 0.08, 1e-9);
+    EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 0.08, 1e-9);
     EXPECT_TRUE(std::any_of(
       areas.begin(), areas.end(), [](double area) { return std::abs(area - 0.1 * 0.15) < 1e-6; }));
   }
@@ -123,7 +120,7 @@ TEST(SurfaceCuts, BallInALamp)
 }
 
 /// A room with a lamp of which a share is in it, the rest behind the wall x = 0.
-/// @param turn of the lamp about the vertical
+/// @param turn of the lamp about the vertical [degrees]
 /// @param trimmed whether the rest is left out
 SceneDescription LampInAWall(double inside, double turn, bool trimmed)
 {
@@ -134,15 +131,13 @@ SceneDescription LampInAWall(double inside, double turn, bool trimmed)
   scene.Grids = {scenes::UniformSmoke(Vec3(0.0), {4.0, 4.0, 3.0}, {16, 16, 12}, 0.3)};
   EmitterCell lamp =
     scenes::Plate({(inside - 0.5) * Side, 0.0, 2.5}, {0, 0, -1}, {0, 1, 0}, Side, Side, 1000.0);
-  std::vector<Vec3> corners;
-  for (const Vec3& corner : lamp.Vertices)
+  for (Vec3& corner : lamp.Vertices)
   {
-    corners.emplace_back(corner.x * std::cos(turn) - corner.y * std::sin(turn),
-      2.0 + corner.x * std::sin(turn) + corner.y * std::cos(turn), corner.z);
+    corner = Vec3(0.0, 2.0, 0.0) + scenes::Rotation(turn, {0, 0, 1}) * corner;
   }
-  lamp.Vertices = corners;
   if (trimmed)
   {
+    const std::vector<Vec3> corners = lamp.Vertices;
     KeepSide(
       corners, [](const Vec3& corner) { return corner.x; }, lamp.Vertices);
   }
@@ -152,15 +147,15 @@ SceneDescription LampInAWall(double inside, double turn, bool trimmed)
 
 // What of a lamp is behind a wall lights nothing in the room: it gets what the rest alone would
 // bring, in all cells to 3 % (those right beside the lamp are cut for it in other boxes), and all
-// together to 0.1 %.
+// together to 0.2 %.
 TEST(SurfaceCuts, LightOfALampInAWall)
 {
   for (const double inside : {0.2, 0.5, 0.8})
   {
-    for (const double turn : {0.0, 0.4})
+    for (const double turn : {0.0, 23.0})
     {
-      const Solved whole(LampInAWall(inside, turn, false), 0.1);
-      const Solved rest(LampInAWall(inside, turn, true), 0.1);
+      const Solved whole(LampInAWall(inside, turn, false), 0.05);
+      const Solved rest(LampInAWall(inside, turn, true), 0.05);
       const std::vector<float>& fluence = whole.Field->DirectFluence;
       const std::vector<float>& expected = rest.Field->DirectFluence;
       double sum = 0.0;
@@ -170,7 +165,7 @@ TEST(SurfaceCuts, LightOfALampInAWall)
         sum += fluence[cell];
         total += expected[cell];
       }
-      EXPECT_NEAR(sum / total, 1.0, 1e-3);
+      EXPECT_NEAR(sum / total, 1.0, 2e-3);
       const double least = 0.01 * total / static_cast<double>(fluence.size());
       for (std::size_t cell = 0; cell < fluence.size(); ++cell)
       {
@@ -187,7 +182,7 @@ TEST(SurfaceCuts, SignInAWall)
 {
   for (const int bars : {5, 9, 31})
   {
-    for (const double turn : {0.4, 0.25 * std::numbers::pi})
+    for (const double turn : {23.0, 45.0})
     {
       SceneDescription scene = LampInAWall(0.5, 0.0, false);
       scene.Grids.clear();
@@ -196,8 +191,7 @@ TEST(SurfaceCuts, SignInAWall)
       {
         for (Vec3& corner : cell.Vertices)
         {
-          corner = Vec3(corner.x * std::cos(turn) - corner.y * std::sin(turn),
-            2.0 + corner.x * std::sin(turn) + corner.y * std::cos(turn), 2.5);
+          corner = Vec3(0.0, 2.0, 2.5) + scenes::Rotation(turn, {0, 0, 1}) * corner;
         }
       }
       const Solved solved(scene, 0.1);
@@ -213,7 +207,7 @@ TEST(SurfaceCuts, SignInAWall)
   }
 }
 
-// A wall through the corners of a plate leaves parts with as many corners as they have edges.
+// Parts beside a wall through the corners of a plate have no corner twice where a leaf begins.
 TEST(SurfaceCuts, WallThroughCorners)
 {
   std::vector<Vec3> corners;
@@ -228,12 +222,8 @@ TEST(SurfaceCuts, WallThroughCorners)
     scene.Emitters[0].Vertices = corners;
     scenes::AddRectangle(scene.Surfaces, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, 1, 1, 0.5);
     const Scene made(scene);
-    double area = 0.0;
-    for (const int root : made.Lights().Lights())
-    {
-      area += made.Lights().Groups()[root].Area;
-    }
-    EXPECT_NEAR(area, made.Lights().CellArea(0), 1e-6);
+    const std::vector<double> areas = Areas(scene);
+    EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), made.Lights().CellArea(0), 1e-6);
     for (const LightGroup& group : made.Lights().Groups())
     {
       EXPECT_GT(glm::length(group.Corners[1] - group.Corners[0]), 1e-3);
